@@ -1,0 +1,1 @@
+"""Parts, joints and how they move."""

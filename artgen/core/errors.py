@@ -1,0 +1,37 @@
+"""The errors that artgen raises on purpose; each says where, what was found, what was expected, what to do."""
+
+
+class ArtgenError(Exception):
+    """A fault the user can act on; the command line prints it in one line and exits with 2."""
+
+
+class RuleError(ArtgenError):
+    """A category rule is misspelt, out of bounds, or impossible to satisfy."""
+
+
+class GeometryError(ArtgenError):
+    """A solid or mesh is open, empty, degenerate, or overlaps another."""
+
+
+class KinematicError(ArtgenError):
+    """A joint, limit, state or part tree is inconsistent."""
+
+
+class ExportError(ArtgenError):
+    """A bundle cannot be written or read."""
+
+
+class RenderError(ArtgenError):
+    """A render job failed or returned an image that cannot be right."""
+
+
+class ShardError(ArtgenError):
+    """A shard or catalog is truncated, corrupt, or of another schema."""
+
+
+class WorkerError(ArtgenError):
+    """A Blender process crashed, ran out of time or memory, or reported a fault."""
+
+
+class UsageError(ArtgenError):
+    """A command was given an argument, folder or machine it cannot work with."""

@@ -1,0 +1,1 @@
+"""Pieces that several categories share; each returns bodies with their convex collision pieces."""

@@ -1,0 +1,1 @@
+"""Exact solids in float64: shapes, meshes, measures."""

@@ -1,0 +1,1 @@
+"""One TOML file per category: what may vary, and within which bounds."""
