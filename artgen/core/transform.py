@@ -1,0 +1,45 @@
+"""Rigid (4, 4) matrices named `a_from_b`: they map b coordinates to a."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from artgen.core.mesh import Floats
+
+BLENDER_CAMERA_FROM_CAMERA = np.diag([1.0, -1.0, -1.0, 1.0])
+"""OpenCV camera axes (x right, y down, z forward) to Blender's (x right, y up, z backward)."""
+BLENDER_CAMERA_FROM_CAMERA.setflags(write=False)
+
+
+def rigid(rotation: ArrayLike, translation: ArrayLike) -> Floats:
+    """(4, 4) from a (3, 3) rotation and a (3,) translation."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation
+    matrix[:3, 3] = translation
+    return matrix
+
+
+def inverted(a_from_b: Floats) -> Floats:
+    """`b_from_a` of a rigid matrix, by transposition."""
+    rotation = a_from_b[:3, :3].T
+    return rigid(rotation, -rotation @ a_from_b[:3, 3])
+
+
+def apply(a_from_b: Floats, points: ArrayLike) -> Floats:
+    """(..., 3) points of b in a."""
+    moved: Floats = np.asarray(points, float) @ a_from_b[:3, :3].T + a_from_b[:3, 3]
+    return moved
+
+
+def look_at(eye: Sequence[float], target: Sequence[float]) -> Floats:
+    """`world_from_camera` of an OpenCV camera at `eye`, upright, facing `target`.
+
+    Raises ValueError through a zero norm only if the view is exactly vertical; planners avoid that.
+    """
+    forward = np.asarray(target, float) - np.asarray(eye, float)
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, (0.0, 0.0, 1.0))
+    right /= np.linalg.norm(right)
+    down = np.cross(forward, right)
+    return rigid(np.stack([right, down, forward], axis=1), eye)
