@@ -1,6 +1,7 @@
 """Where parts are at a state: products of joint motions, all in the object frame.
 
-Every part frame coincides with the object frame at rest, so the pose of a part is the product of the
+Every part frame coincides with the object frame at rest, so the pose of a part is the product of
+the
 motions of the joints above it (product of exponentials; Murray, Li, Sastry 1994, section 3.2).
 """
 

@@ -43,7 +43,8 @@ class Body:
         surface: name of a surface of the Draft.
         density: kg/m3; an effective value where the real piece is hollow or foamed.
         edge: radius in m by which Blender rounds sharp convex edges; 0 leaves them sharp.
-        collision: convex solids that together stand for this piece; empty for trims without contact.
+        collision: convex solids that together stand for this piece; empty for trims without
+            contact.
         grain: axis along which the material's grain runs; None means the longest side.
         decal: flat image placement instead of metres on the surface.
     """
@@ -105,7 +106,8 @@ class Joint:
 
     Attributes:
         axis: unit direction; positive q opens.
-        origin: a point on the axis, m; canonical form is the axis point nearest to the object frame's
+        origin: a point on the axis, m; canonical form is the axis point nearest to the object
+            frame's
             zero (revolute) or zero itself (prismatic).
         limit: None only for continuous joints.
         friction: constant resisting force, N m or N.

@@ -16,7 +16,8 @@ ART_SLOTS = 8
 """Parts that one ART sample can hold, base included (ART, supplement, P_0)."""
 
 VERTEX_DECIMALS = 7
-"""Finished vertices are rounded to 1e-7 m, so that every text format prints them exactly and short."""
+"""Finished vertices are rounded to 1e-7 m, so that every text format prints them exactly and short.
+"""
 UV_DECIMALS = 6
 NORMAL_DECIMALS = 5
 

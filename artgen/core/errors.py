@@ -1,4 +1,6 @@
-"""The errors that artgen raises on purpose; each says where, what was found, what was expected, what to do."""
+"""The errors that artgen raises on purpose; each says where, what was found, what was expected,
+what to do.
+"""
 
 
 class ArtgenError(Exception):

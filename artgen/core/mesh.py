@@ -28,7 +28,8 @@ class TriMesh:
         uv: (F, 3, 2) float64 in metres on the surface, or None; v points up.
         atlas: (F, 3, 2) float64 inside the unit square without overlap, or None.
         slot: (F,) int16, index into the owner's `surfaces`; zeros when not given.
-        body: (F,) int16, which closed body of the part the triangle belongs to; zeros when not given.
+        body: (F,) int16, which closed body of the part the triangle belongs to; zeros when not
+            given.
     """
 
     vertices: Floats
@@ -53,7 +54,9 @@ class TriMesh:
 
     def _check(self, count: int) -> None:
         if not np.isfinite(self.vertices).all():
-            raise GeometryError("a mesh has a vertex that is not finite; check the solid it came from")
+            raise GeometryError(
+                "a mesh has a vertex that is not finite; check the solid it came from"
+            )
         if count == 0:
             raise GeometryError("a mesh has no triangle; the solid it came from is empty")
         if self.faces.min() < 0 or self.faces.max() >= len(self.vertices):
@@ -62,7 +65,9 @@ class TriMesh:
             )
         a, b, c = self.faces.T
         if ((a == b) | (b == c) | (c == a)).any():
-            raise GeometryError("a triangle names one vertex twice; weld the mesh before building a TriMesh")
+            raise GeometryError(
+                "a triangle names one vertex twice; weld the mesh before building a TriMesh"
+            )
 
     @property
     def bounds(self) -> Floats:

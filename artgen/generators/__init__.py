@@ -1,4 +1,6 @@
-"""Builders by category name: `artgen/generators/<category>.py` beside `category_rules/<category>.toml`."""
+"""Builders by category name: `artgen/generators/<category>.py` beside
+`category_rules/<category>.toml`.
+"""
 
 import importlib
 from collections.abc import Callable, Mapping

@@ -12,7 +12,9 @@ CHORD_ERROR = 1.5e-4
 """m; the largest distance between an arc and its chords, well under a pixel in our renders."""
 
 
-def arc_segments(radius: float, angle: float = 2.0 * math.pi, chord_error: float = CHORD_ERROR) -> int:
+def arc_segments(
+    radius: float, angle: float = 2.0 * math.pi, chord_error: float = CHORD_ERROR
+) -> int:
     """Chords for an arc whose sagitta r (1 - cos(step / 2)) stays under `chord_error`; 2 to 64."""
     step = 2.0 * math.acos(max(0.0, 1.0 - chord_error / max(radius, 2.0 * chord_error)))
     return max(2, min(64, math.ceil(abs(angle) / step)))
@@ -33,7 +35,9 @@ def rectangle(width: float, height: float) -> Floats:
 def rounded_rectangle(
     width: float, height: float, radius: float | Sequence[float], *, segments: int | None = None
 ) -> Floats:
-    """Centred on zero; `radius` for all corners or for (lower left, lower right, upper right, upper left)."""
+    """Centred on zero; `radius` for all corners or for (lower left, lower right, upper right, upper
+    left).
+    """
     radii = [float(radius)] * 4 if isinstance(radius, int | float) else [float(r) for r in radius]
     if max(radii) > min(width, height) / 2.0 + 1e-12:
         raise GeometryError(

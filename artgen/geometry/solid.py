@@ -1,6 +1,7 @@
 """An algebra of solids on manifold3d: values in, values out, float64 throughout.
 
-`box`, `slab`, `prism`, `cylinder`, `cone`, `tube`, `revolve`, `wire` and `hull` make solids; `|`, `-`,
+`box`, `slab`, `prism`, `cylinder`, `cone`, `tube`, `revolve`, `wire` and `hull` make solids; `|`,
+`-`,
 `&` combine them; `at`, `turned`, `mirrored` place them. Lengths in m, angles in rad.
 """
 
@@ -27,7 +28,9 @@ class Solid:
 
     def __init__(self, manifold: m3.Manifold) -> None:
         if manifold.status() != m3.Error.NoError:
-            raise GeometryError(f"manifold3d reports {manifold.status().name}; the shape is not closed")
+            raise GeometryError(
+                f"manifold3d reports {manifold.status().name}; the shape is not closed"
+            )
         self._manifold = manifold
 
     @property
@@ -203,9 +206,11 @@ def chamfered_box(
 
 
 def wire(path: ArrayLike, radius: float, *, sides: int = 6, closed: bool = False) -> Solid:
-    """A round wire along an (N, 3) polyline, mitred at the corners; one piece, no self-overlap inside.
+    """A round wire along an (N, 3) polyline, mitred at the corners; one piece, no self-overlap
+    inside.
 
-    The cross-section is a regular polygon whose area equals that of the round wire, so mass is right.
+    The cross-section is a regular polygon whose area equals that of the round wire, so mass is
+    right.
     """
     points = np.asarray(path, float)
     fair = radius * math.sqrt(2.0 * math.pi / (sides * math.sin(2.0 * math.pi / sides)))

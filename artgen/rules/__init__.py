@@ -1,4 +1,6 @@
-"""Category rules: what may vary and within which bounds, read from TOML and sampled by named streams."""
+"""Category rules: what may vary and within which bounds, read from TOML and sampled by named
+streams.
+"""
 
 from artgen.rules.load import load_rule, rule_names
 from artgen.rules.sample import Sampled, sample

@@ -54,7 +54,9 @@ def load_rule(name: str, folder: Path | None = None) -> CategoryRule:
     path = folder / f"{name}.toml"
     if not path.is_file():
         known = rule_names(folder)
-        raise RuleError(f"there is no category {name!r}{did_you_mean(name, known)}; known: {', '.join(known)}")
+        raise RuleError(
+            f"there is no category {name!r}{did_you_mean(name, known)}; known: {', '.join(known)}"
+        )
     data = read_toml(path)
     reader = _Reader(f"{folder.name}/{path.name}")
     return reader.rule(data, load_palette(folder))
@@ -113,7 +115,8 @@ class _Reader:
             if word not in known:
                 where = f"{key}.{word}" if key else word
                 raise self.fail(
-                    where, f"is not a known key{did_you_mean(word, known)}; expected {', '.join(known)}"
+                    where,
+                    f"is not a known key{did_you_mean(word, known)}; expected {', '.join(known)}",
                 )
 
     def table(self, data: Mapping[str, Any], key: str) -> Mapping[str, Any]:
@@ -131,9 +134,7 @@ class _Reader:
         for key in BANDS:
             lower, upper = self.pair(f"band.{key}", table.get(key))
             if not 0.0 < lower < upper:
-                raise self.fail(
-                    f"band.{key}", f"= [{lower}, {upper}] must hold 0 < lower < upper"
-                )
+                raise self.fail(f"band.{key}", f"= [{lower}, {upper}] must hold 0 < lower < upper")
             bands[key] = Band(lower, upper)
         return bands
 
@@ -149,7 +150,9 @@ class _Reader:
         self.known_keys(key, entry, (*KINDS, "weights", "length"))
         kinds = [kind for kind in KINDS if kind in entry]
         if len(kinds) != 1:
-            raise self.fail(key, f"expected exactly one of {', '.join(KINDS)}; found {kinds or 'none'}")
+            raise self.fail(
+                key, f"expected exactly one of {', '.join(KINDS)}; found {kinds or 'none'}"
+            )
         distribution = self.distribution(key, kinds[0], entry)
         if (fault := distribution.check()) is not None:
             raise self.fail(key, f"{kinds[0]} = {entry[kinds[0]]!r} {fault}")
@@ -165,7 +168,9 @@ class _Reader:
             return self.choice(key, entry)
         if kind == "chance":
             if not _is_number(entry["chance"]):
-                raise self.fail(key, f"chance expects a number in [0, 1], found {entry['chance']!r}")
+                raise self.fail(
+                    key, f"chance expects a number in [0, 1], found {entry['chance']!r}"
+                )
             return Chance(float(entry["chance"]))
         made: Distribution = PAIRS[kind](*self.pair(key, entry[kind]))
         return made

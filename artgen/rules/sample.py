@@ -34,7 +34,8 @@ def sample(
     invariants: Invariants,
     folder: Path | None = None,
 ) -> Sampled:
-    """Draw until every invariant holds; the value of a key depends on the stream, the key and the try.
+    """Draw until every invariant holds; the value of a key depends on the stream, the key and the
+    try.
 
     Raises:
         RuleError: keys differ from the fields of `params_type`, or no try met all invariants.
@@ -72,7 +73,9 @@ def draw_surfaces(
     """Role to a palette entry of the rule's choice."""
     palette = load_palette(folder or rules_folder())
     return {
-        role: surface_spec(role, palette[str(choice.draw(stream.child("surfaces", role).generator()))])
+        role: surface_spec(
+            role, palette[str(choice.draw(stream.child("surfaces", role).generator()))]
+        )
         for role, choice in rule.surfaces.items()
     }
 
