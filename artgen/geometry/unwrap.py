@@ -1,9 +1,13 @@
-"""Two UV sets: metres on the surface for tileable materials, and one atlas per object for baking."""
+"""Two UV sets: metres on the surface for tileable materials, and one atlas per object for baking.
+"""
 
 from collections.abc import Sequence
 
 import numpy as np
 import xatlas
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from artgen.core.conventions import UV_DECIMALS
 from artgen.core.errors import GeometryError
@@ -11,6 +15,12 @@ from artgen.core.mesh import Floats, Ints
 
 GOLDEN = 0.6180339887498949
 """Boards are cut from one veneer at places k * GOLDEN m apart, so that neighbours do not repeat."""
+
+SIDE_AXES = np.array([[1, 2], [2, 0], [0, 1]])
+"""The two axes that span the plane across x, y, z, right-handed."""
+
+SMALLEST = 1e-4
+"""m; thinner charts are packed as if they were this wide, so that none is lost."""
 
 
 def metric_uv(vertices: Floats, faces: Ints, *, grain: int | None, place: int) -> Floats:
@@ -62,33 +72,89 @@ def flat_uv(
 
 
 def atlas_uv(parts: Sequence[tuple[Floats, Ints]], *, resolution: int) -> list[Floats]:
-    """(F, 3, 2) per part: one xatlas packing of all parts inside the unit square, without overlap.
+    """(F, 3, 2) per part: one atlas of all parts inside the unit square, without overlap.
+
+    Charts are the connected pieces of surface that look along one of the six axis directions, laid
+    flat along it, so seams fall on the edges of boxes; xatlas packs their rectangles. Its own
+    charts
+    take twelve times as long (3.7 against 0.3 CPU s for 11,000 triangles in 250 bodies).
 
     Args:
         parts: vertices (V, 3) and faces (F, 3) of each.
         resolution: texels along a side; charts keep two texels apart.
 
     Raises:
-        GeometryError: xatlas lost or added a triangle.
+        GeometryError: xatlas lost a chart.
     """
+    flat, charts = zip(*(_axis_charts(vertices, faces) for vertices, faces in parts), strict=True)
+    starts = np.cumsum([0, *(int(chart.max()) + 1 for chart in charts)])
+    chart = np.concatenate([own + start for own, start in zip(charts, starts, strict=False)])
+    uv = np.concatenate(flat)
+    lower = np.full((starts[-1], 2), np.inf)
+    np.minimum.at(lower, chart, uv.min(axis=1))
+    upper = np.full((starts[-1], 2), -np.inf)
+    np.maximum.at(upper, chart, uv.max(axis=1))
+    corner, right, up = _packed(upper - lower, resolution)
+    share = (uv - lower[chart][:, None]) / np.maximum(upper - lower, SMALLEST)[chart][:, None]
+    placed = corner[chart][:, None] + share[..., :1] * right[chart][:, None]
+    placed = placed + share[..., 1:] * up[chart][:, None]
+    placed = np.round(np.clip(placed, 0.0, 1.0), UV_DECIMALS)
+    return np.split(placed, np.cumsum([len(own) for own in flat])[:-1])
+
+
+def _axis_charts(vertices: Floats, faces: Ints) -> tuple[Floats, NDArray[np.int64]]:
+    """Flat UV (F, 3, 2) in m and chart number (F,) of each face."""
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    axis = np.argmax(np.abs(normals), axis=1)
+    positive = np.take_along_axis(normals, axis[:, None], axis=1)[:, 0] > 0.0
+    uv = np.take_along_axis(corners, np.repeat(SIDE_AXES[axis][:, None, :], 3, axis=1), axis=2)
+    uv[~positive, :, 0] *= -1.0
+    side = 2 * axis + positive
+    keys, index = np.unique(faces.astype(np.int64) * 6 + side[:, None], return_inverse=True)
+    index = index.reshape(-1, 3)
+    links = coo_array(
+        (np.ones(2 * len(index)), (np.repeat(index[:, 0], 2), index[:, 1:].ravel())),
+        shape=(len(keys), len(keys)),
+    )
+    _, chart = connected_components(links, directed=False)
+    _, chart = np.unique(chart[index[:, 0]], return_inverse=True)
+    return uv, chart.reshape(-1)
+
+
+def _packed(sizes: Floats, resolution: int) -> tuple[Floats, Floats, Floats]:
+    """Corner, right edge and up edge (N, 2) in the unit square for rectangles of `sizes` (N, 2) m.
+    """
+    count = len(sizes)
+    width, height = np.maximum(sizes, SMALLEST).T
+    zero = np.zeros(count)
+    quads = np.stack(
+        [
+            np.stack(pair, axis=1)
+            for pair in ((zero, zero), (width, zero), (width, height), (zero, height))
+        ],
+        axis=1,
+    )
+    index = 4 * np.arange(count)[:, None] + np.array([[0, 1, 2], [0, 2, 3]]).reshape(1, 6)
     packer = xatlas.Atlas()
-    for vertices, faces in parts:
-        packer.add_mesh(vertices.astype(np.float32), faces.astype(np.uint32))
-    charts, packing = xatlas.ChartOptions(), xatlas.PackOptions()
-    charts.max_iterations = 1
+    packer.add_uv_mesh(
+        quads.reshape(-1, 2).astype(np.float32),
+        index.reshape(-1, 3).astype(np.uint32),
+        np.repeat(np.arange(count, dtype=np.uint32), 2)[:, None],
+    )
+    packing = xatlas.PackOptions()
     packing.resolution, packing.padding, packing.bilinear = resolution, 2, True
     packing.create_image = False
-    packer.generate(charts, packing)
-    placed = []
-    for index, (_, faces) in enumerate(parts):
-        _, indices, uv = packer[index]
-        if len(indices) != len(faces):
-            raise GeometryError(
-                f"xatlas returned {len(indices)} of {len(faces)} triangles of part {index}; "
-                "remove degenerate triangles first"
-            )
-        placed.append(np.round(np.clip(uv[indices].astype(np.float64), 0.0, 1.0), UV_DECIMALS))
-    return placed
+    packer.generate(xatlas.ChartOptions(), packing)
+    _, indices, uv = packer[0]
+    if packer.chart_count != count or len(indices) != 2 * count:
+        raise GeometryError(
+            f"xatlas placed {packer.chart_count} of {count} charts; the mesh has slivers below "
+            f"{SMALLEST} m"
+        )
+    corners = uv[indices].astype(np.float64).reshape(count, 6, 2)
+    origin = corners[:, 0]
+    return origin, corners[:, 1] - origin, corners[:, 5] - origin
 
 
 def texel_density(corners: Floats, uv: Floats) -> Floats:
