@@ -63,6 +63,7 @@ def finish(
             mesh=_with_atlas(mesh, uv),
             collision=_collision(part),
             mass=_weighed(part, bodies),
+            densities=tuple(body.density for body in part.bodies),
         )
         for part, bodies, mesh, uv in zip(settled, meshes, joined, atlas, strict=True)
     )

@@ -195,13 +195,17 @@ class Mass:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Part:
-    """A finished rigid part; mesh and collision in the object frame at rest."""
+    """A finished rigid part; mesh and collision in the object frame at rest.
+
+    `densities[i]` (kg/m3) belongs to the body that `mesh.body == i`; None where they are not known.
+    """
 
     name: str
     label: str
     mesh: TriMesh
     collision: tuple[TriMesh, ...]
     mass: Mass
+    densities: tuple[float, ...] | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from artgen.core.mesh import Floats, TriMesh
-from artgen.core.transform import inverted
 from artgen.geometry.solid import Solid
 
 NEGLIGIBLE = 1e-12
@@ -23,11 +22,13 @@ class Shape:
         bodies: closed and outward, in any number.
         points: (V, 3) their vertices, m, body after body.
         starts: (B,) row of each body's first vertex.
+        rest: (B, 2, 3) bounds of each body, m.
     """
 
     bodies: tuple[m3.Manifold, ...]
     points: Floats
     starts: NDArray[np.intp]
+    rest: Floats
 
     def boxes(self, object_from_rest: Floats) -> Floats:
         """(K, B, 2, 3) bounds of each body under each of (K, 4, 4) poses."""
@@ -62,7 +63,7 @@ def shape_of_mesh(mesh: TriMesh) -> Shape:
     overlaps.
     """
     manifolds, points = [], []
-    cuts = np.flatnonzero(np.diff(mesh.body)) + 1
+    cuts = np.flatnonzero(np.diff(np.asarray(mesh.body))) + 1
     for faces in np.split(mesh.faces, cuts):
         first, last = int(faces.min()), int(faces.max()) + 1
         own = np.ascontiguousarray(mesh.vertices[first:last])
@@ -73,7 +74,8 @@ def shape_of_mesh(mesh: TriMesh) -> Shape:
 
 def _shape(manifolds: Sequence[m3.Manifold], points: Sequence[Floats]) -> Shape:
     starts = np.cumsum([0, *(len(p) for p in points[:-1])])
-    return Shape(bodies=tuple(manifolds), points=np.concatenate(points), starts=starts)
+    rest = np.array([(p.min(axis=0), p.max(axis=0)) for p in points])
+    return Shape(bodies=tuple(manifolds), points=np.concatenate(points), starts=starts, rest=rest)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,25 +97,53 @@ def overlaps(movers: Sequence[Mover]) -> Iterator[Overlap]:
     """Every pair of different groups that interpenetrates, pose by pose, with the shared volume.
 
     Exact at the given poses: pairs of bodies are dropped only where their boxes, along the object's
-    axes or along those of either body's own rest frame, share less than `NEGLIGIBLE`.
+    axes or along those of either body at rest, share less than `NEGLIGIBLE`.
     """
     owner = np.repeat(np.arange(len(movers)), [len(m.shape.bodies) for m in movers])
     boxes = np.concatenate([m.shape.boxes(m.poses) for m in movers], axis=1)
-    own = np.arange(len(owner)) - np.searchsorted(owner, owner)
     first, second = _meeting(boxes, np.array([m.group for m in movers])[owner])
     meeting = _shared(boxes[:, first], boxes[:, second]) > NEGLIGIBLE
-    shared: dict[tuple[int, int, int], float] = {}
-    for pair in np.flatnonzero(meeting.any(axis=0)):
-        i, j = int(first[pair]), int(second[pair])
-        a, b = movers[owner[i]], movers[owner[j]]
-        for pose in np.flatnonzero(meeting[:, pair]):
-            b_from_a = inverted(b.poses[pose]) @ a.poses[pose]
-            volume = _common(a.shape, int(own[i]), b.shape, int(own[j]), b_from_a)
-            if volume > 0.0:
-                key = (int(pose), int(owner[i]), int(owner[j]))
-                shared[key] = shared.get(key, 0.0) + volume
-    for (pose, i, j), volume in sorted(shared.items()):
-        yield Overlap(pose=pose, first=movers[i].name, second=movers[j].name, volume=volume)
+    alive = meeting.any(axis=0)
+    first, second, meeting = first[alive], second[alive], meeting[:, alive]
+    starts = np.searchsorted(owner, np.arange(len(movers)))
+    parts = np.stack([owner[first], owner[second]], axis=1)
+    for i, j in np.unique(parts, axis=0).tolist():
+        own = (parts == (i, j)).all(axis=1)
+        bodies = np.stack([first[own] - starts[i], second[own] - starts[j]], axis=1)
+        yield from _pair_overlaps(movers[i], movers[j], bodies, meeting[:, own])
+
+
+def _pair_overlaps(
+    a: Mover, b: Mover, bodies: NDArray[np.intp], meeting: NDArray[np.bool_]
+) -> Iterator[Overlap]:
+    """Overlaps of two movers; `bodies` is (P, 2), `meeting` the (K, P) poses where boxes meet."""
+    b_from_a = _inverted(b.poses) @ a.poses
+    box_a, box_b = a.shape.rest[bodies[:, 0]], b.shape.rest[bodies[:, 1]]
+    meeting = meeting & (_shared(_carried(b_from_a, box_a), box_b[None]) > NEGLIGIBLE)
+    meeting &= _shared(_carried(_inverted(b_from_a), box_b), box_a[None]) > NEGLIGIBLE
+    for pose in np.flatnonzero(meeting.any(axis=1)):
+        volume = sum(
+            float((a.shape.bodies[i].transform(b_from_a[pose, :3]) ^ b.shape.bodies[j]).volume())
+            for i, j in bodies[meeting[pose]].tolist()
+        )
+        if volume > 0.0:
+            yield Overlap(pose=int(pose), first=a.name, second=b.name, volume=volume)
+
+
+def _inverted(poses: Floats) -> Floats:
+    """(K, 4, 4) inverses of rigid poses."""
+    inverse = np.tile(np.eye(4), (len(poses), 1, 1))
+    inverse[:, :3, :3] = poses[:, :3, :3].transpose(0, 2, 1)
+    inverse[:, :3, 3] = -np.einsum("kij,kj->ki", inverse[:, :3, :3], poses[:, :3, 3])
+    return inverse
+
+
+def _carried(poses: Floats, boxes: Floats) -> Floats:
+    """(K, P, 2, 3) bounds of (P, 2, 3) boxes after each of (K, 4, 4) poses."""
+    middle, half = boxes.mean(axis=1), np.diff(boxes, axis=1)[:, 0] / 2.0
+    moved = np.einsum("kij,pj->kpi", poses[:, :3, :3], middle) + poses[:, None, :3, 3]
+    reach = np.einsum("kij,pj->kpi", np.abs(poses[:, :3, :3]), half)
+    return np.stack([moved - reach, moved + reach], axis=2)
 
 
 def _meeting(boxes: Floats, group: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -133,9 +163,3 @@ def _shared(first: Floats, second: Floats) -> Floats:
         first[..., 0, :], second[..., 0, :]
     )
     return np.asarray(depth.clip(min=0.0).prod(axis=-1))
-
-
-def _common(first: Shape, i: int, second: Shape, j: int, second_from_first: Floats) -> float:
-    """m3 that two bodies share."""
-    moved = first.bodies[i].transform(second_from_first[:3])
-    return float((moved ^ second.bodies[j]).volume())
