@@ -1,0 +1,1 @@
+"""Code that plans, launches and collects renders; rendered output goes elsewhere."""
