@@ -1,0 +1,7 @@
+"""`python -m artgen`."""
+
+import sys
+
+from artgen.cli import main
+
+sys.exit(main())

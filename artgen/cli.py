@@ -1,0 +1,104 @@
+"""The `artgen` command: finds its sub-commands by entry point and turns errors into exit codes."""
+
+import errno
+import logging
+import os
+import sys
+from collections.abc import Callable, Sequence
+from importlib.metadata import EntryPoint, entry_points
+
+from artgen import __version__
+from artgen.core.errors import ArtgenError
+
+Command = Callable[[Sequence[str]], int]
+
+FULL_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+DENIED = (errno.EACCES, errno.EPERM, errno.EROFS)
+
+INTRODUCTION = """\
+artgen {version}: procedural articulated 3D objects, from category rules to training shards.
+
+usage: artgen COMMAND [OPTIONS]        (artgen COMMAND --help explains each option)
+
+Start here:
+  artgen doctor                                        is this machine ready?
+  artgen generate --count 12 --out out                 rules -> assets -> renders -> shards
+  artgen generate --categories laptop cabinet --count 200 --seed 7 --workers 2
+  artgen inspect out/assets/laptop/000000              what is in a bundle
+
+Commands:
+{commands}
+
+Exit codes: 0 done, 1 done but some assets failed, 2 could not run, 130 interrupted (run again to
+resume).
+"""
+
+
+def found_commands() -> dict[str, EntryPoint]:
+    """Sub-commands by name, from every installed distribution."""
+    return {entry.name: entry for entry in entry_points(group="artgen.commands")}
+
+
+def run_command(name: str, argv: Sequence[str]) -> int:
+    """Run one sub-command in this process; its exit code."""
+    command: Command = found_commands()[name].load()
+    return command(argv)
+
+
+def introduction() -> str:
+    """The text of `artgen --help`."""
+    lines = []
+    for name, entry in sorted(found_commands().items()):
+        first_line = (entry.load().__doc__ or "").strip().splitlines()[0]
+        lines.append(f"  {name:<12} {first_line}")
+    return INTRODUCTION.format(version=__version__, commands="\n".join(lines))
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exit code of `artgen ARGV`; every expected fault is one line on stderr, never a traceback."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    logging.basicConfig(level=logging.WARNING, format="%(message)s")
+    try:
+        return _dispatched(words)
+    except ArtgenError as error:
+        print(f"artgen: {error}", file=sys.stderr)  # noqa: T201
+        return 2
+    except OSError as error:
+        print(f"artgen: {_explained(error)}", file=sys.stderr)  # noqa: T201
+        return 2
+    except KeyboardInterrupt:
+        print(  # noqa: T201
+            "artgen: interrupted; what was finished is kept, the same command resumes",
+            file=sys.stderr,
+        )
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _dispatched(words: Sequence[str]) -> int:
+    if not words or words[0] in ("-h", "--help", "help"):
+        print(introduction())  # noqa: T201
+        return 0 if words else 2
+    if words[0] in ("-V", "--version", "version"):
+        print(f"artgen {__version__}")  # noqa: T201
+        return 0
+    commands = found_commands()
+    if words[0] not in commands:
+        known = ", ".join(sorted(commands))
+        print(f"artgen: no command {words[0]!r}; known: {known}", file=sys.stderr)  # noqa: T201
+        return 2
+    return run_command(words[0], words[1:])
+
+
+def _explained(error: OSError) -> str:
+    """One line for a fault of the file system; others are passed on with their own words."""
+    place = error.filename or "the output folder"
+    if error.errno in FULL_DISK:
+        return (
+            f"{place}: no space left; free some or choose another --out, then run the same command"
+        )
+    if error.errno in DENIED:
+        return f"{place}: not writable ({error.strerror}); choose another --out or mend its permissions"
+    return f"{place}: {error.strerror or error}"

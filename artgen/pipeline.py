@@ -1,0 +1,275 @@
+"""From rule to validated bundle: one asset at a time, many processes side by side, resumable."""
+
+import dataclasses
+import json
+import logging
+import multiprocessing
+import shutil
+import tempfile
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from pebble import ProcessExpired, ProcessPool
+
+from artgen import __version__
+from artgen.articulation.types import ArticulatedObject
+from artgen.core.errors import ArtgenError, UsageError
+from artgen.core.jsonio import fill_folder_atomically, plain, write_json
+from artgen.core.mesh import Floats, Ints
+from artgen.core.stream import Stream
+from artgen.export import write_bundle
+from artgen.finish import RawBody, finish
+from artgen.finish_jobs import RoundJob, read_bodies, write_bodies
+from artgen.generators import load_builder
+from artgen.rules import CategoryRule, load_rule, sample
+from artgen.run_folder import RunFolder
+from artgen.textures.library import TextureLibrary
+from artgen.validate import validate_bundle
+from artgen.worker import BlenderWorker
+
+log = logging.getLogger(__name__)
+
+ROUND_TIMEOUT_S = 60.0
+ASSET_TIMEOUT_S = 600.0
+"""An asset takes 3 to 5 s; a process that hangs for this long is killed and its asset set aside."""
+ATTEMPTS = 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class AssetTask:
+    """One asset of a run; its content depends on (seed, category, index) and the rule alone."""
+
+    category: str
+    index: int
+    seed: int
+
+    @property
+    def asset_id(self) -> str:
+        """Unique within a run: category and six-digit index."""
+        return f"{self.category}_{self.index:06d}"
+
+    def place(self, root: Path) -> Path:
+        """`<root>/<category>/<index>`."""
+        return root / self.category / f"{self.index:06d}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """What became of a task: made now, kept from an earlier run, or failed with a message."""
+
+    asset_id: str
+    status: Literal["made", "kept", "failed"]
+    message: str = ""
+    seconds: Mapping[str, float] = dataclasses.field(default_factory=dict)
+
+
+def plan(categories: Sequence[str], count: int, seed: int) -> list[AssetTask]:
+    """`count` tasks dealt out to the categories in turn; a larger count only adds tasks.
+
+    Raises:
+        RuleError: a category is unknown. UsageError: the count is not positive.
+    """
+    if count < 1:
+        raise UsageError(f"--count {count} makes nothing; ask for at least 1")
+    for category in categories:
+        load_rule(category)
+    return [
+        AssetTask(category=categories[k % len(categories)], index=k // len(categories), seed=seed)
+        for k in range(count)
+    ]
+
+
+def check_kept(folder: RunFolder, tasks: Sequence[AssetTask]) -> set[str]:
+    """Ids of tasks whose bundle is already here.
+
+    Raises:
+        UsageError: one was made from another seed, rule or version; nothing is overwritten.
+    """
+    kept = set()
+    digests = {category: load_rule(category).digest for category in {t.category for t in tasks}}
+    for task in tasks:
+        manifest = task.place(folder.assets) / "manifest.json"
+        if not manifest.exists():
+            continue
+        found = json.loads(manifest.read_text(encoding="utf-8"))
+        expected = {"seed": task.seed, "rule": digests[task.category], "artgen": __version__}
+        actual = {
+            "seed": found.get("seed"),
+            "rule": found.get("rule", {}).get("digest"),
+            "artgen": found.get("versions", {}).get("artgen"),
+        }
+        if differing := [key for key in expected if expected[key] != actual[key]]:
+            raise UsageError(
+                f"{manifest.parent}: was made from another {' and '.join(differing)}; "
+                "choose a new --out (nothing is overwritten)"
+            )
+        kept.add(task.asset_id)
+    return kept
+
+
+class Toolbox:
+    """What a process keeps between assets: a Blender worker and the texture cache."""
+
+    def __init__(self, folder: RunFolder, name: str) -> None:
+        self.folder = folder
+        self.blender = BlenderWorker(folder.logs / f"blender-{name}.log")
+        self.textures = TextureLibrary(folder.work / "textures")
+        folder.work.mkdir(parents=True, exist_ok=True)
+
+
+class Stopwatch:
+    """Seconds by stage."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._last = time.perf_counter()
+
+    def lap(self, stage: str) -> None:
+        """Book the time since the last lap on `stage`."""
+        now = time.perf_counter()
+        self.seconds[stage] = now - self._last
+        self._last = now
+
+
+def make_asset(task: AssetTask, tools: Toolbox) -> Outcome:
+    """Build, finish, export and validate one asset; it lands whole in assets/ or in failed/."""
+    watch = Stopwatch()
+    rule = load_rule(task.category)
+    obj = built(task, rule, tools, watch)
+    staged = task.place(tools.folder.work / "staged")
+    messages: list[str] = []
+
+    def fill(partial: Path) -> None:
+        write_bundle(obj, partial, library=tools.textures, worker=tools.blender)
+        watch.lap("export")
+        report = validate_bundle(partial)
+        write_json(partial / "report.json", plain(report))
+        messages.extend(f"{f.check} {f.part}: {f.message}" for f in report.findings)
+        watch.lap("validate")
+
+    fill_folder_atomically(staged, fill)
+    home, other = task.place(tools.folder.assets), task.place(tools.folder.failed)
+    if messages:
+        home, other = other, home
+    _move(staged, home)
+    shutil.rmtree(other, ignore_errors=True)
+    return Outcome(
+        asset_id=task.asset_id,
+        status="failed" if messages else "made",
+        message="; ".join(messages[:3]),
+        seconds=watch.seconds,
+    )
+
+
+def built(
+    task: AssetTask, rule: CategoryRule, tools: Toolbox, watch: Stopwatch
+) -> ArticulatedObject:
+    """The finished object of a task."""
+    builder = load_builder(task.category)
+    drawn = sample(
+        rule,
+        Stream(task.seed, task.category, task.index),
+        params_type=builder.params_type,
+        invariants=builder.invariants,
+    )
+    draft = builder.build(drawn.params, drawn.surfaces)
+    watch.lap("build")
+    obj = finish(
+        draft,
+        asset_id=task.asset_id,
+        rounder=lambda bodies: rounded(bodies, tools),
+        provenance={
+            "seed": task.seed,
+            "index": task.index,
+            "rule": {"version": rule.version, "digest": rule.digest},
+            "params": plain(drawn.params),
+        },
+    )
+    watch.lap("finish")
+    return obj
+
+
+def rounded(bodies: Sequence[RawBody], tools: Toolbox) -> list[tuple[Floats, Ints]]:
+    """Bodies with their edges rounded by Blender."""
+    if not bodies:
+        return []
+    with tempfile.TemporaryDirectory(dir=tools.folder.work) as scratch:
+        job = RoundJob(input=f"{scratch}/sharp.npz", output=f"{scratch}/round.npz")
+        write_bodies(
+            Path(job.input),
+            [(body.vertices, body.faces) for body in bodies],
+            radius=[body.radius for body in bodies],
+        )
+        tools.blender.run(plain(job), timeout_s=ROUND_TIMEOUT_S)
+        return [(v, np.asarray(f, np.int32)) for v, f in read_bodies(Path(job.output))[0]]
+
+
+def _move(staged: Path, home: Path) -> None:
+    """One rename; what stood there before is removed first."""
+    home.parent.mkdir(parents=True, exist_ok=True)
+    if home.exists():
+        shutil.rmtree(home)
+    staged.rename(home)
+
+
+_tools: Toolbox | None = None
+"""Of this worker process; set once by the pool's initializer, as pools offer no other way."""
+
+
+def _open_toolbox(folder: RunFolder) -> None:
+    global _tools
+    _tools = Toolbox(folder, multiprocessing.current_process().name.lower())
+
+
+def _task_in_worker(task: AssetTask) -> Outcome:
+    """make_asset with faults of one asset turned into its outcome; the tools outlive it."""
+    if _tools is None:
+        raise RuntimeError("the pool did not open its toolbox")
+    try:
+        return make_asset(task, _tools)
+    except ArtgenError as error:
+        aside = task.place(_tools.folder.failed)
+        aside.mkdir(parents=True, exist_ok=True)
+        write_json(aside / "error.json", {"asset_id": task.asset_id, "error": str(error)})
+        return Outcome(asset_id=task.asset_id, status="failed", message=str(error))
+
+
+def run_tasks(folder: RunFolder, tasks: Sequence[AssetTask], *, workers: int) -> Iterator[Outcome]:
+    """Outcomes as they come; a process that dies fails its asset alone, after a second try."""
+    waiting, attempt = list(tasks), 1
+    with ProcessPool(
+        max_workers=workers,
+        initializer=_open_toolbox,
+        initargs=(folder,),
+        context=multiprocessing.get_context("spawn"),
+    ) as pool:
+        try:
+            while waiting:
+                futures = {
+                    pool.schedule(_task_in_worker, args=(task,), timeout=ASSET_TIMEOUT_S): task
+                    for task in waiting
+                }
+                waiting = []
+                for future in as_completed(futures):
+                    task = futures[future]
+                    try:
+                        yield future.result()
+                    except (ProcessExpired, TimeoutError) as error:
+                        if attempt < ATTEMPTS:
+                            log.warning("%s attempt %d: %s", task.asset_id, attempt, error)
+                            waiting.append(task)
+                        else:
+                            yield Outcome(
+                                asset_id=task.asset_id,
+                                status="failed",
+                                message=f"process died: {error}",
+                            )
+                attempt += 1
+        except BaseException:
+            pool.stop()
+            raise
