@@ -4,13 +4,16 @@ A job is a frozen dataclass whose `plain` form is one line of JSON; arrays trave
 that the job names. Every job carries its `kind`, which the worker dispatches on.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from pathlib import Path
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from artgen.core.mesh import Floats, Ints
+from artgen.core.surface import SurfaceSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,3 +55,134 @@ def read_bodies(path: Path) -> tuple[list[tuple[Floats, Ints]], Floats]:
         faces = np.split(stored["faces"], np.cumsum(stored["face_counts"])[:-1])
         count, radius = len(stored["vertex_counts"]), stored["radius"]
     return list(zip(vertices, faces, strict=True))[:count], radius
+
+
+@dataclass(frozen=True, kw_only=True)
+class GltfImages:
+    """Absolute paths of PNG files that go into the GLB byte for byte; None where a factor suffices.
+
+    Attributes:
+        color: sRGB; replaces the surface's color.
+        orm: R = 1, G = roughness, B = metallic; replaces both factors.
+        normal: tangent space, y up (OpenGL).
+        emission: sRGB; multiplied by the surface's `emission`.
+    """
+
+    color: str | None = None
+    orm: str | None = None
+    normal: str | None = None
+    emission: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class GltfSurface:
+    """One glTF material; the numbers mean what they mean in `SurfaceSpec`."""
+
+    name: str
+    color: tuple[float, float, float]
+    roughness: float
+    metallic: float
+    transmission: float
+    ior: float
+    emission: float
+    images: GltfImages = field(default_factory=GltfImages)
+
+    @classmethod
+    def of(cls, spec: SurfaceSpec, images: GltfImages) -> Self:
+        """The material of a surface and the image files of its recipe."""
+        return cls(
+            name=spec.name,
+            color=spec.color,
+            roughness=spec.roughness,
+            metallic=spec.metallic,
+            transmission=spec.transmission,
+            ior=spec.ior,
+            emission=spec.emission,
+            images=images,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class GltfPart:
+    """One glTF node.
+
+    Attributes:
+        name: name of the node and of its mesh.
+        parent: name of another part, listed before this one; None for the base.
+        origin: of the node, m, object frame at rest: its joint's origin, or zero for the base.
+        extras: JSON for the node's `extras`.
+    """
+
+    name: str
+    parent: str | None
+    origin: tuple[float, float, float]
+    extras: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GltfJob:
+    """Write one GLB; the arrays of part k lie in `arrays` as `write_gltf_arrays` puts them.
+
+    Attributes:
+        parts: base first, parents before children.
+        surfaces: what `slot` indexes; those that no triangle uses are left out of the file.
+        extras: JSON for the scene's `extras`.
+        arrays: npz file.
+        output: the .glb; its folder exists.
+    """
+
+    parts: tuple[GltfPart, ...]
+    surfaces: tuple[GltfSurface, ...]
+    extras: Mapping[str, Any]
+    arrays: str
+    output: str
+    kind: str = "gltf"
+
+    @classmethod
+    def from_plain(cls, job: Mapping[str, Any]) -> Self:
+        """The job that `plain` turned into JSON."""
+        surfaces = (
+            GltfSurface(
+                **{**row, "color": tuple(row["color"]), "images": GltfImages(**row["images"])}
+            )
+            for row in job["surfaces"]
+        )
+        parts = (GltfPart(**{**row, "origin": tuple(row["origin"])}) for row in job["parts"])
+        return cls(**{**job, "surfaces": tuple(surfaces), "parts": tuple(parts)})
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class GltfArrays:
+    """Triangles of one part.
+
+    Attributes:
+        vertices: (V, 3) m, object frame at rest.
+        faces: (F, 3).
+        normals: (F, 3, 3) unit, a corner.
+        uv: (F, 3, 2) in repeats of the image: metres divided by the surface's tile; v up.
+        atlas: (F, 3, 2) in the unit square; v up.
+        slot: (F,) index into `GltfJob.surfaces`.
+    """
+
+    vertices: Floats
+    faces: Ints
+    normals: Floats
+    uv: Floats
+    atlas: Floats
+    slot: NDArray[np.int16]
+
+
+def write_gltf_arrays(path: Path, parts: Sequence[GltfArrays]) -> None:
+    """One npz for all parts, in the order of `GltfJob.parts`."""
+    named = {f"{name}_{k}": getattr(part, name) for k, part in enumerate(parts) for name in _ARRAYS}
+    np.savez(path, **named)
+
+
+def read_gltf_arrays(path: Path) -> list[GltfArrays]:
+    """What `write_gltf_arrays` wrote."""
+    with np.load(path) as stored:
+        count = len(stored.files) // len(_ARRAYS)
+        return [GltfArrays(**{n: stored[f"{n}_{k}"] for n in _ARRAYS}) for k in range(count)]
+
+
+_ARRAYS = tuple(f.name for f in fields(GltfArrays))

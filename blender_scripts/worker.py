@@ -22,11 +22,12 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TextIO
 
-from blender_scripts import bevel
+from blender_scripts import bevel, gltf
 
 log = logging.getLogger("blender_scripts.worker")
 
 JOBS: Mapping[str, Callable[[Mapping[str, Any], int], dict[str, Any]]] = {
+    "gltf": gltf.run,
     "round": bevel.run,
 }
 """Kind of job to what runs it: (job, render threads) -> report."""
