@@ -1,0 +1,1 @@
+"""The ART application: the only package that imports torch."""
