@@ -83,10 +83,7 @@ def _bevelled(vertices: Floats, faces: Ints, radius: float, shortest: float) -> 
     """The bevelled triangles, and the volume (m3) that the bevel should take off."""
     mesh = bmesh.new()
     try:
-        placed = [mesh.verts.new(point) for point in vertices.tolist()]
-        for a, b, c in faces.tolist():
-            mesh.faces.new((placed[a], placed[b], placed[c]))
-        mesh.normal_update()
+        _fill(mesh, vertices.tolist(), faces.tolist())
         bmesh.ops.dissolve_limit(
             mesh, angle_limit=FLAT, verts=list(mesh.verts), edges=list(mesh.edges), delimit=set()
         )
@@ -104,11 +101,43 @@ def _bevelled(vertices: Floats, faces: Ints, radius: float, shortest: float) -> 
             affect="EDGES",
             clamp_overlap=True,
         )
-        bmesh.ops.dissolve_degenerate(mesh, dist=1e-7, edges=list(mesh.edges))
-        bmesh.ops.triangulate(mesh, faces=list(mesh.faces))
-        return _arrays(mesh), 0.5 * radius * radius * asked
+        return _triangulated(*_sorted_polygons(mesh)), 0.5 * radius * radius * asked
     finally:
         mesh.free()
+
+
+def _sorted_polygons(mesh: bmesh.types.BMesh) -> tuple[list[list[float]], list[list[int]]]:
+    """Points and polygons in an order that follows from the shape alone: the bevel makes its faces
+    in the order of memory addresses."""
+    mesh.verts.index_update()
+    points = np.array([vertex.co for vertex in mesh.verts], np.float64).reshape(-1, 3)
+    order = np.lexsort(points.T[::-1])
+    place = np.argsort(order)
+    polygons = []
+    for face in mesh.faces:
+        loop = [int(place[vertex.index]) for vertex in face.verts]
+        first = loop.index(min(loop))
+        polygons.append(loop[first:] + loop[:first])
+    return points[order].tolist(), sorted(polygons)
+
+
+def _triangulated(points: list[list[float]], polygons: list[list[int]]) -> Body:
+    """Triangles of the polygons, collapsed ones dissolved."""
+    mesh = bmesh.new()
+    try:
+        _fill(mesh, points, polygons)
+        bmesh.ops.dissolve_degenerate(mesh, dist=1e-7, edges=list(mesh.edges))
+        bmesh.ops.triangulate(mesh, faces=list(mesh.faces))
+        return _arrays(mesh)
+    finally:
+        mesh.free()
+
+
+def _fill(mesh: bmesh.types.BMesh, points: list[list[float]], polygons: list[list[int]]) -> None:
+    placed = [mesh.verts.new(point) for point in points]
+    for polygon in polygons:
+        mesh.faces.new([placed[k] for k in polygon])
+    mesh.normal_update()
 
 
 def _roomy(sharp: list[bmesh.types.BMEdge], shortest: float) -> list[bmesh.types.BMEdge]:

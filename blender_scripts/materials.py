@@ -12,6 +12,7 @@ def principled_material(surface: GltfSurface) -> bpy.types.Material:
     """Factors where there is no image, images by the first UV set where there is one."""
     material = bpy.data.materials.new(surface.name)
     material.use_nodes = True
+    material.use_backface_culling = True  # closed bodies: single-sided in glTF
     tree = material.node_tree
     shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
     put = shader.inputs
