@@ -12,8 +12,9 @@ from artgen.core.mesh import Floats, TriMesh
 from artgen.export.layout import BoxPiece, HullPiece, collision_pieces, pivots
 from artgen.export.obj import distinct
 from artgen.export.principal import principal_axes, quaternion_from_matrix
+from artgen.export.surface_images import SurfaceImages
 from artgen.export.usd_joints import add_base_joint, add_joint
-from artgen.export.usd_materials import SurfaceImages, add_contact_material, add_material
+from artgen.export.usd_materials import add_contact_material, add_material
 from artgen.geometry.normals import corner_normals
 
 JOINTS, MATERIALS, VISUAL, COLLISION = "joints", "materials", "visual", "collision"

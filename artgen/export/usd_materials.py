@@ -1,25 +1,21 @@
 """UsdPreviewSurface networks: tiling images or plain numbers, and the contact material."""
 
-from dataclasses import dataclass
-
 from pxr import Gf, Sdf, Usd, UsdPhysics, UsdShade
 
 from artgen.core.surface import SurfaceSpec
+from artgen.export.surface_images import SurfaceImages
 
 FRICTION = 0.6
 """Static and dynamic coefficient, as in the MJCF's contact defaults: wood on wood, dry."""
+INPUTS = {
+    "diffuseColor": Sdf.ValueTypeNames.Color3f,
+    "emissiveColor": Sdf.ValueTypeNames.Color3f,
+    "roughness": Sdf.ValueTypeNames.Float,
+    "metallic": Sdf.ValueTypeNames.Float,
+    "normal": Sdf.ValueTypeNames.Normal3f,
+}
 CLEAR_OPACITY = 0.15
 """Opacity of a pane that transmits all light: just enough to show that it is there."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class SurfaceImages:
-    """Image paths of one surface, relative to the bundle's folder; None where there is no image."""
-
-    color: str | None = None
-    roughness: str | None = None
-    normal: str | None = None
-    emission: str | None = None
 
 
 def add_material(
@@ -33,14 +29,20 @@ def add_material(
     _set_numbers(shader, surface)
     textures = Textures(stage, path)
     if images.color is not None:
-        _replace(shader, "diffuseColor", textures.add("color", images.color, "sRGB", "rgb"))
-    if images.roughness is not None:
-        _replace(shader, "roughness", textures.add("roughness", images.roughness, "raw", "r"))
+        _replace(shader, "diffuseColor", _rgb(textures.add("color", images.color, "sRGB")))
+    if images.orm is not None:
+        node = textures.add("orm", images.orm, "raw")
+        _replace(shader, "roughness", node.CreateOutput("g", Sdf.ValueTypeNames.Float))
+        _replace(shader, "metallic", node.CreateOutput("b", Sdf.ValueTypeNames.Float))
     if images.normal is not None:
-        _replace(shader, "normal", textures.add_normal(images.normal))
+        node = textures.add(
+            "normal", images.normal, "raw", scale=(2, 2, 2, 1), bias=(-1, -1, -1, 0)
+        )
+        _replace(shader, "normal", _rgb(node))
     if images.emission is not None:
-        texture = textures.add("emission", images.emission, "sRGB", "rgb", surface.emission)
-        _replace(shader, "emissiveColor", texture)
+        strength = (*[surface.emission] * 3, 1.0)
+        node = textures.add("emission", images.emission, "sRGB", scale=strength)
+        _replace(shader, "emissiveColor", _rgb(node))
     material.CreateSurfaceOutput().ConnectToSource(shader.ConnectableAPI(), "surface")
     return material
 
@@ -61,9 +63,7 @@ def _set_numbers(shader: UsdShade.Shader, surface: SurfaceSpec) -> None:
 
 def _replace(shader: UsdShade.Shader, name: str, output: UsdShade.Output) -> None:
     """Connect an input; the number it had is dropped, so that no reader falls back to it."""
-    kind = Sdf.ValueTypeNames.Float if name == "roughness" else Sdf.ValueTypeNames.Color3f
-    kind = Sdf.ValueTypeNames.Normal3f if name == "normal" else kind
-    found = shader.CreateInput(name, kind)
+    found = shader.CreateInput(name, INPUTS[name])
     found.GetAttr().Clear()
     found.ConnectToSource(output)
 
@@ -80,7 +80,16 @@ class Textures:
         reader.CreateInput("varname", Sdf.ValueTypeNames.String).Set("st")
         return reader.CreateOutput("result", Sdf.ValueTypeNames.Float2)
 
-    def _node(self, name: str, image: str, space: str) -> UsdShade.Shader:
+    def add(
+        self,
+        name: str,
+        image: str,
+        space: str,
+        *,
+        scale: tuple[float, ...] = (1, 1, 1, 1),
+        bias: tuple[float, ...] = (0, 0, 0, 0),
+    ) -> UsdShade.Shader:
+        """A node that yields image * scale + bias, repeated in both directions."""
         types = Sdf.ValueTypeNames
         node = UsdShade.Shader.Define(self._stage, self._material.AppendChild(name))
         node.CreateIdAttr("UsdUVTexture")
@@ -89,26 +98,15 @@ class Textures:
         for side in ("wrapS", "wrapT"):
             node.CreateInput(side, types.Token).Set("repeat")
         node.CreateInput("st", types.Float2).ConnectToSource(self._coordinates())
+        if scale != (1, 1, 1, 1):
+            node.CreateInput("scale", types.Float4).Set(Gf.Vec4f(*scale))
+        if bias != (0, 0, 0, 0):
+            node.CreateInput("bias", types.Float4).Set(Gf.Vec4f(*bias))
         return node
 
-    def add(
-        self, name: str, image: str, space: str, channel: str, strength: float = 1.0
-    ) -> UsdShade.Output:
-        """The image's `channel`, times `strength`."""
-        node = self._node(name, image, space)
-        if strength != 1.0:
-            scale = Gf.Vec4f(strength, strength, strength, 1.0)
-            node.CreateInput("scale", Sdf.ValueTypeNames.Float4).Set(scale)
-        kind = Sdf.ValueTypeNames.Float3 if channel == "rgb" else Sdf.ValueTypeNames.Float
-        return node.CreateOutput(channel, kind)
 
-    def add_normal(self, image: str) -> UsdShade.Output:
-        """A tangent-space normal image, mapped from [0, 1] to [-1, 1]."""
-        node = self._node("normal", image, "raw")
-        types = Sdf.ValueTypeNames
-        node.CreateInput("scale", types.Float4).Set(Gf.Vec4f(2.0, 2.0, 2.0, 1.0))
-        node.CreateInput("bias", types.Float4).Set(Gf.Vec4f(-1.0, -1.0, -1.0, 0.0))
-        return node.CreateOutput("rgb", types.Float3)
+def _rgb(node: UsdShade.Shader) -> UsdShade.Output:
+    return node.CreateOutput("rgb", Sdf.ValueTypeNames.Float3)
 
 
 def add_contact_material(stage: Usd.Stage, scope: Sdf.Path) -> UsdShade.Material:

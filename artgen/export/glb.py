@@ -1,0 +1,214 @@
+"""GLB: the job that Blender's exporter runs, and what the file's extras say about joints.
+
+glTF is y up. Everything in the extras is in the frame of its node: y up, at the joint's origin, so
+that a reader needs no knowledge of our frames.
+"""
+
+import json
+import struct
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from artgen.articulation.types import ArticulatedObject, Joint, Mimic, Part, Spring
+from artgen.core.conventions import Y_UP_FROM_Z_UP
+from artgen.core.errors import ExportError
+from artgen.core.jsonio import plain
+from artgen.core.mesh import Floats
+from artgen.core.surface import SurfaceSpec
+from artgen.export.kinematics import FileJoint, FileKinematics, FileMass, vector
+from artgen.export.layout import GLB, pivots
+from artgen.export.surface_images import SurfaceImages
+from artgen.finish_jobs import (
+    GltfArrays,
+    GltfImages,
+    GltfJob,
+    GltfPart,
+    GltfSurface,
+    write_gltf_arrays,
+)
+from artgen.geometry.normals import corner_normals
+from artgen.worker import BlenderWorker
+
+TIMEOUT_S = 120.0
+"""A GLB takes about a second; the limit is for a machine under heavy load."""
+TURN = Y_UP_FROM_Z_UP[:3, :3]
+
+
+def write_glb(
+    obj: ArticulatedObject,
+    folder: Path,
+    images: Mapping[str, SurfaceImages],
+    worker: BlenderWorker,
+) -> None:
+    """Have Blender write `folder`/asset.glb; images lie in `folder` already.
+
+    Raises:
+        WorkerError: Blender failed.
+    """
+    with tempfile.TemporaryDirectory() as scratch:
+        arrays = Path(scratch) / "arrays.npz"
+        write_gltf_arrays(arrays, [part_arrays(part, obj) for part in obj.parts])
+        job = gltf_job(obj, folder, images, arrays)
+        worker.run(plain(job), timeout_s=TIMEOUT_S)
+
+
+def gltf_job(
+    obj: ArticulatedObject, folder: Path, images: Mapping[str, SurfaceImages], arrays: Path
+) -> GltfJob:
+    """Nodes at the joints' origins, nested as the joints are."""
+    frames = pivots(obj)
+    parents = {joint.child: joint.parent for joint in obj.joints}
+    return GltfJob(
+        parts=tuple(
+            GltfPart(
+                name=part.name,
+                parent=parents.get(part.name),
+                origin=vector(frames[part.name]),
+                extras=part_extras(obj, part, frames[part.name]),
+            )
+            for part in parents_first(obj)
+        ),
+        surfaces=tuple(_surface(spec, folder, images) for spec in obj.surfaces),
+        extras=scene_extras(obj),
+        arrays=str(arrays),
+        output=str(folder.resolve() / GLB),
+    )
+
+
+def parents_first(obj: ArticulatedObject) -> list[Part]:
+    """Parts in the order of their joints: canonical order may put a child before its parent."""
+    parts = {part.name: part for part in obj.parts}
+    return [obj.base, *(parts[joint.child] for joint in obj.joints)]
+
+
+def part_arrays(part: Part, obj: ArticulatedObject) -> GltfArrays:
+    """Triangles with corner normals and both UV sets."""
+    mesh = part.mesh
+    if mesh.uv is None or mesh.atlas is None:
+        raise ExportError(f"part {part.name} has no texture coordinates; finish the object first")
+    slot = np.asarray(mesh.slot)
+    tiles = np.array([surface.tile for surface in obj.surfaces])
+    return GltfArrays(
+        vertices=mesh.vertices,
+        faces=mesh.faces,
+        normals=corner_normals(mesh),
+        uv=mesh.uv / tiles[slot][:, None, :],
+        atlas=mesh.atlas,
+        slot=slot,
+    )
+
+
+def _surface(spec: SurfaceSpec, folder: Path, images: Mapping[str, SurfaceImages]) -> GltfSurface:
+    own = plain(images.get(spec.name, SurfaceImages()))
+    paths = {kind: path and str(folder.resolve() / path) for kind, path in own.items()}
+    return GltfSurface.of(spec, GltfImages(**paths))
+
+
+def scene_extras(obj: ArticulatedObject) -> dict[str, Any]:
+    """What concerns the whole object."""
+    extras: dict[str, Any] = plain(
+        {
+            "asset_id": obj.asset_id,
+            "category": obj.category,
+            "frame": "y up, front +z; a node's extras are in the node's frame; m, kg, rad",
+            "preconditions": obj.preconditions,
+        }
+    )
+    return extras
+
+
+def part_extras(obj: ArticulatedObject, part: Part, pivot: Floats) -> dict[str, Any]:
+    """Label, mass properties and the joint that moves the node, in the node's frame."""
+    extras = {
+        "label": part.label,
+        "mass": part.mass.mass,
+        "center_of_mass": TURN @ (part.mass.center - pivot) + 0.0,
+        "inertia": TURN @ part.mass.inertia @ TURN.T + 0.0,
+    }
+    joint = obj.joint_of(part.name)
+    if joint is not None:
+        extras["joint"] = joint_extras(joint)
+    turned: dict[str, Any] = plain(extras)
+    return turned
+
+
+def joint_extras(joint: Joint) -> dict[str, Any]:
+    """All of a joint but its parent and origin, which the node tree and translation state."""
+    return {
+        "name": joint.name,
+        "type": joint.type,
+        "axis": TURN @ joint.axis + 0.0,
+        "limit": joint.limit,
+        "friction": joint.friction,
+        "damping": joint.damping,
+        "effort": joint.effort,
+        "velocity": joint.velocity,
+        "spring": joint.spring,
+        "mimic": joint.mimic,
+    }
+
+
+def read_document(path: Path) -> dict[str, Any]:
+    """The JSON chunk of a GLB.
+
+    Raises:
+        ExportError: the file is no GLB.
+    """
+    with path.open("rb") as stream:
+        header = stream.read(20)
+        if len(header) < 20 or header[:4] != b"glTF" or header[16:20] != b"JSON":
+            raise ExportError(f"{path} is not a GLB file; export the asset anew")
+        document: dict[str, Any] = json.loads(stream.read(struct.unpack_from("<I", header, 12)[0]))
+        return document
+
+
+def load_kinematics(folder: Path) -> FileKinematics:
+    """Parts and joints of `folder`/asset.glb in the object frame."""
+    document = read_document(folder / GLB)
+    nodes = document["nodes"]
+    masses: dict[str, FileMass | None] = {}
+    joints: list[FileJoint] = []
+    roots: list[int] = document["scenes"][document.get("scene", 0)]["nodes"]
+    waiting = [(index, "", np.zeros(3)) for index in roots]
+    while waiting:
+        index, parent, frame = waiting.pop(0)
+        node = nodes[index]
+        pivot = frame + TURN.T @ np.array(node.get("translation", (0.0, 0.0, 0.0)))
+        masses[node["name"]] = _file_mass(node["extras"], pivot)
+        if (stated := node["extras"].get("joint")) is not None:
+            joints.append(_file_joint(stated, parent, node["name"], pivot))
+        waiting += [(child, node["name"], pivot) for child in node.get("children", ())]
+    base = nodes[roots[0]]["name"]
+    return FileKinematics(base=base, masses=masses, joints=tuple(joints))
+
+
+def _file_mass(extras: Mapping[str, Any], pivot: Floats) -> FileMass:
+    return FileMass(
+        mass=extras["mass"],
+        center=pivot + TURN.T @ np.array(extras["center_of_mass"]),
+        inertia=TURN.T @ np.array(extras["inertia"]) @ TURN,
+    )
+
+
+def _file_joint(stated: Mapping[str, Any], parent: str, child: str, pivot: Floats) -> FileJoint:
+    limit = stated["limit"] or {"lower": None, "upper": None}
+    return FileJoint(
+        name=stated["name"],
+        type=stated["type"],
+        parent=parent,
+        child=child,
+        axis=vector(TURN.T @ np.array(stated["axis"])),
+        origin=vector(pivot),
+        lower=limit["lower"],
+        upper=limit["upper"],
+        friction=stated["friction"],
+        damping=stated["damping"],
+        effort=stated["effort"],
+        velocity=stated["velocity"],
+        spring=stated["spring"] and Spring(**stated["spring"]),
+        mimic=stated["mimic"] and Mimic(**stated["mimic"]),
+    )
