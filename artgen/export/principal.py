@@ -77,12 +77,19 @@ def matrix_from_quaternion(quaternion: Floats) -> Floats:
 
 
 def rotation_between(start: Floats, end: Floats) -> Floats:
-    """(4,) quaternion of the least rotation that takes unit `start` to unit `end`."""
-    cosine = float(np.dot(start, end))
-    if cosine < -1.0 + 1e-14:  # opposite: half a turn about any axis across
-        across = np.roll(start, 1)  # start is a coordinate axis, so the next one is across
-        return np.array([0.0, *across])
-    cross = np.cross(start, end)
-    # w = |1 + cos|, xyz = cross, then normalized: stable for small angles.
-    raw = np.array([1.0 + cosine, *cross])
+    """(4,) quaternion that takes the coordinate axis `start` to the unit vector `end`.
+
+    Behind `start` the least rotation loses its digits (1 + cos cancels), so an exact half turn goes
+    first.
+    """
+    if float(np.dot(start, end)) < 0.0:
+        half_turn = np.array([0.0, *np.roll(start, 1)])
+        return product(rotation_between(-start, end), half_turn)
+    raw = np.array([1.0 + float(np.dot(start, end)), *np.cross(start, end)])
     return np.asarray(raw / math.sqrt(float(np.sum(raw * raw))))
+
+
+def product(left: Floats, right: Floats) -> Floats:
+    """(4,) quaternion of `right`, then `left`."""
+    a, u, b, v = left[0], left[1:], right[0], right[1:]
+    return np.array([a * b - float(np.dot(u, v)), *(a * v + b * u + np.cross(u, v))])
