@@ -16,6 +16,9 @@ TIE = 0.02
 differ
 by rounding only, two rows by far more."""
 
+LEVEL = 1e-12
+"""m; an object this near to its place is not moved again, so that doing it twice changes nothing."""
+
 
 def canonical_order(bounds: Sequence[Floats]) -> list[int]:
     """Indices in canonical order for (2, 3) rest bounds; index 0 is the base and stays first.
@@ -49,7 +52,8 @@ def canonicalize(draft: Draft) -> Draft:
     bounds = [part_bounds(part) for part in draft.parts]
     low, high = np.min([b[0] for b in bounds], axis=0), np.max([b[1] for b in bounds], axis=0)
     middle = (low + high) / 2.0
-    shift = (-middle[0], -middle[1], -low[2])
+    shift = np.array([-middle[0], -middle[1], -low[2]])
+    shift[np.abs(shift) < LEVEL] = 0.0
     parts = tuple(moved_part(draft.parts[i], shift) for i in canonical_order(bounds))
     joints = [canonical_pivot(moved_joint(joint, shift)) for joint in draft.joints]
     names = [part.name for part in parts]

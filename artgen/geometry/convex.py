@@ -26,8 +26,7 @@ def as_box(mesh: TriMesh) -> tuple[Floats, Floats] | None:
 
 
 def convexity_gap(mesh: TriMesh) -> float:
-    """The largest distance by which a vertex lies outside a face's plane, m; 0 for a convex mesh.
-    """
+    """The largest distance by which a vertex lies outside a face's plane, m; 0 for a convex mesh."""
     vectors = face_vectors(mesh)
     normals = unit(vectors)[np.linalg.norm(vectors, axis=1) > 1e-14]
     anchors = mesh.triangles[np.linalg.norm(vectors, axis=1) > 1e-14, 0]

@@ -7,6 +7,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Literal
 
 import manifold3d as m3
@@ -138,8 +139,16 @@ def prism(outline: ArrayLike, height: float, *, holes: Iterable[ArrayLike] = ())
     if height <= 0.0:
         raise GeometryError(f"a prism of height {height} m is empty; height must be positive")
     loops = [np.asarray(outline, float), *(np.asarray(h, float)[::-1] for h in holes)]
-    section = m3.CrossSection(loops, m3.FillRule.Positive)
-    return Solid(m3.Manifold.extrude(section, height))
+    cap = np.asarray(m3.triangulate(loops))
+    plane = np.concatenate(loops)
+    count = len(plane)
+    starts = np.cumsum([0] + [len(loop) for loop in loops])
+    here = np.arange(count)
+    following = np.concatenate([np.roll(here[a:b], -1) for a, b in pairwise(starts)])
+    walls = np.stack([here, following, following + count, here, following + count, here + count])
+    faces = np.concatenate([cap[:, ::-1], cap + count, walls.T.reshape(-1, 3)])
+    vertices = np.concatenate([np.c_[plane, np.zeros(count)], np.c_[plane, np.full(count, height)]])
+    return Solid(m3.Manifold(m3.Mesh64(vertices, faces.astype(np.uint64))))
 
 
 def upright(solid: Solid, axis: Axis) -> Solid:
@@ -175,7 +184,10 @@ def tube(
 
 
 def revolve(outline: ArrayLike, *, axis: Axis = "z", segments: int | None = None) -> Solid:
-    """An (N, 2) outline of (radius >= 0, height) points, counter-clockwise, turned about +axis."""
+    """An (N, 2) outline of (radius >= 0, height) points, counter-clockwise, turned about +axis.
+
+    manifold3d rounds the outline to 1e-8 m here.
+    """
     points = np.asarray(outline, float)
     count = segments or max(8, arc_segments(float(points[:, 0].max())))
     section = m3.CrossSection([points], m3.FillRule.Positive)

@@ -1,5 +1,4 @@
-"""Two UV sets: metres on the surface for tileable materials, and one atlas per object for baking.
-"""
+"""Two UV sets: metres on the surface for tileable materials, and one atlas per object for baking."""
 
 from collections.abc import Sequence
 
@@ -123,8 +122,7 @@ def _axis_charts(vertices: Floats, faces: Ints) -> tuple[Floats, NDArray[np.int6
 
 
 def _packed(sizes: Floats, resolution: int) -> tuple[Floats, Floats, Floats]:
-    """Corner, right edge and up edge (N, 2) in the unit square for rectangles of `sizes` (N, 2) m.
-    """
+    """Corner, right edge and up edge (N, 2) in the unit square for rectangles of `sizes` (N, 2) m."""
     count = len(sizes)
     width, height = np.maximum(sizes, SMALLEST).T
     zero = np.zeros(count)

@@ -35,5 +35,7 @@ def test_numbers_are_the_same_in_a_fresh_process_and_for_all_time() -> None:
     """The literal pins numpy's bit stream: a change here is a data change for every asset."""
     code = "from artgen.core.stream import Stream; print(Stream(7, 'laptop', 3).generator().integers(0, 1000, 3).tolist())"
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert told.stdout.strip() == str(Stream(7, "laptop", 3).generator().integers(0, 1000, 3).tolist())
+    assert told.stdout.strip() == str(
+        Stream(7, "laptop", 3).generator().integers(0, 1000, 3).tolist()
+    )
     assert told.stdout.strip() == "[962, 954, 44]"
