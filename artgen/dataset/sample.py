@@ -6,7 +6,7 @@ The world frame is the object frame (m, z up, front -y), so cameras and targets 
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -282,23 +282,6 @@ class Sample:
 def transparent_cleared(rgba: Bytes) -> Bytes:
     """(..., 4) the same image with RGB 0 where alpha is 0, as samples store it."""
     return np.where(rgba[..., 3:] == 0, np.uint8(0), rgba)
-
-
-def selected(sample: Sample, states: list[int], views: list[int]) -> Sample:
-    """The sample restricted to some states and views, in the order given."""
-    pick = np.ix_(states, views)
-    cameras = Cameras(
-        intrinsics=sample.cameras.intrinsics[views],
-        camera_from_world=sample.cameras.camera_from_world[pick],
-        size=sample.cameras.size,
-    )
-    return replace(
-        sample,
-        cameras=cameras,
-        targets=replace(sample.targets, motion=sample.targets.motion[states]),
-        q=sample.q[states],
-        **{name: getattr(sample, name)[pick] for name in _IMAGES},
-    )
 
 
 def _frozen_targets(targets: Targets) -> Targets:

@@ -1,0 +1,70 @@
+"""A run's folder to its shards and catalog: what `artgen shard` does."""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from artgen.core.errors import ShardError
+from artgen.dataset.catalog import asset_folders, write_catalog
+from artgen.dataset.packing import PER_SHARD, Packing, pack
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sharded:
+    """What `shard_folder` made, and where."""
+
+    packing: Packing
+    shards: Path
+    catalog: tuple[Path, Path]
+
+
+def shard_folder(
+    out: Path,
+    *,
+    per_shard: int = PER_SHARD,
+    advance: Callable[[str], None] = lambda note: None,
+) -> Sharded:
+    """Pack `samples/<category>/<index>.tar` of every valid asset into `shards/`, write `catalog/`.
+
+    Failed assets and assets without a sample are left out and listed in `shards/dataset.json`.
+
+    Raises:
+        ShardError: nothing can be packed, a sample is corrupt, or the disk refuses.
+    """
+    staged, left_out = packable(out)
+    if not staged:
+        raise ShardError(
+            f"{out}: holds no sample of a valid asset; make some with `artgen generate` or "
+            "`artgen render`"
+        )
+    packing = pack(staged, out / "shards", per_shard=per_shard, left_out=left_out, advance=advance)
+    return Sharded(packing=packing, shards=out / "shards", catalog=write_catalog(out, packing))
+
+
+def packable(out: Path) -> tuple[list[Path], dict[str, str]]:
+    """Staged samples of valid assets, and the reason for every asset that has none."""
+    staged: list[Path] = []
+    left_out = {_asset_id(folder): _failure(folder) for folder in asset_folders(out, "failed")}
+    for folder in asset_folders(out, "valid"):
+        sample = out / "samples" / folder.parent.name / f"{folder.name}.tar"
+        if sample.exists():
+            staged.append(sample)
+        else:
+            left_out[_asset_id(folder)] = "not rendered"
+    return staged, left_out
+
+
+def _asset_id(folder: Path) -> str:
+    return f"{folder.parent.name}_{folder.name}"
+
+
+def _failure(folder: Path) -> str:
+    """The first finding of a failed asset's report, or the error that stopped it."""
+    report, error = folder / "report.json", folder / "error.json"
+    if report.exists():
+        findings = json.loads(report.read_text(encoding="utf-8"))["findings"]
+        return "; ".join(f"{f['check']}: {f['part']}: {f['message']}" for f in findings[:1])
+    if error.exists():
+        return str(json.loads(error.read_text(encoding="utf-8"))["error"])
+    return "failed without a report"
