@@ -100,5 +100,5 @@ def _explained(error: OSError) -> str:
             f"{place}: no space left; free some or choose another --out, then run the same command"
         )
     if error.errno in DENIED:
-        return f"{place}: not writable ({error.strerror}); choose another --out or mend its permissions"
+        return f"{place}: not writable ({error.strerror}); choose another --out"
     return f"{place}: {error.strerror or error}"

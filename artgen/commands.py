@@ -64,8 +64,8 @@ def generate(argv: Sequence[str]) -> int:
     command = tyro.cli(Generate, args=argv, prog="artgen generate")
     if min(command.workers, command.views, command.states) < 1 or command.size < 16:
         raise UsageError(
-            f"--workers {command.workers}, --views {command.views} and --states {command.states} must be "
-            f"at least 1, --size {command.size} at least 16"
+            f"--workers {command.workers}, --views {command.views} and --states {command.states} "
+            f"must be at least 1, --size {command.size} at least 16"
         )
     tasks = plan(command.categories or tuple(rule_names()), command.count, command.seed)
     with opened(command.out, seed=command.seed, need_bytes=len(tasks) * BYTES_PER_ASSET) as folder:
@@ -127,9 +127,8 @@ def render_and_pack(command: Generate) -> int:
 
 
 COLUMNS = (
-    "asset_id,verdict,parts,joints,mass_kg,width_m,depth_m,height_m,triangles,files,bytes".split(
-        ","
-    )
+    *("asset_id", "verdict", "parts", "joints", "mass_kg"),
+    *("width_m", "depth_m", "height_m", "triangles", "files", "bytes"),
 )
 
 

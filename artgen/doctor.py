@@ -56,8 +56,7 @@ class Finding:
 @dataclass(frozen=True, kw_only=True)
 class Doctor:
     """Check the machine (Python, Blender module, system libraries, disk, cores) and say how to mend
-    it.
-    """
+    it."""
 
     mend: bool = False
     """Install missing system libraries with apt-get; needs root."""

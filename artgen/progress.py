@@ -1,6 +1,5 @@
 """Progress of long work: a bar with counts, rate and ETA on a terminal, a line now and then
-elsewhere.
-"""
+elsewhere."""
 
 import time
 from collections.abc import Callable, Iterator

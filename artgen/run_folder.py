@@ -1,5 +1,4 @@
-"""The output folder of a run: whose it is, what lies where, and the lock that lets one run write.
-"""
+"""The output folder of a run: whose it is, what lies where, and the lock that lets one run write."""
 
 import json
 import os

@@ -1,6 +1,5 @@
 """Canonical form: base first, then low to high, front to back, left to right; pivots and ground
-fixed.
-"""
+fixed."""
 
 import dataclasses
 from collections.abc import Sequence
@@ -13,20 +12,19 @@ from artgen.core.mesh import Floats
 
 TIE = 0.02
 """Centres closer than this share of the object's diagonal count as level; two doors of one row
-differ
-by rounding only, two rows by far more."""
+differ by rounding only, two rows by far more."""
 
 LEVEL = 1e-12
-"""m; an object this near to its place is not moved again, so that doing it twice changes nothing."""
+"""m; an object this near to its place is not moved again, so that doing it twice changes
+nothing."""
 
 
 def canonical_order(bounds: Sequence[Floats]) -> list[int]:
     """Indices in canonical order for (2, 3) rest bounds; index 0 is the base and stays first.
 
     Centres are grouped from the lowest up: a group ends at the first gap wider than the tie.
-    Groups,
-    unlike rounding to a grid, do not flip under noise unless a gap is within the noise of the tie.
-    """
+    Groups, unlike rounding to a grid, do not flip under noise unless a gap is within the noise of
+    the tie."""
     boxes = np.asarray(bounds)
     centers = boxes.mean(axis=1)
     diagonal = np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0))
@@ -67,7 +65,8 @@ def part_bounds(part: DraftPart) -> Floats:
 
 
 def parents_first(joints: Sequence[Joint], names: Sequence[str]) -> list[Joint]:
-    """Joints in the order of their children in `names`, but never before the joint of their parent."""
+    """Joints in the order of their children in `names`, but never before the joint of their
+    parent."""
     waiting = sorted(joints, key=lambda joint: names.index(joint.child))
     placed, ordered = {names[0]}, []
     while waiting:
@@ -80,27 +79,26 @@ def parents_first(joints: Sequence[Joint], names: Sequence[str]) -> list[Joint]:
 
 def canonical_pivot(joint: Joint) -> Joint:
     """The joint with its free choices fixed: the axis point nearest to zero, or zero when it
-    slides.
-    """
+    slides."""
     if joint.type == "prismatic":
         return dataclasses.replace(joint, origin=(0.0, 0.0, 0.0))
     axis, origin = np.asarray(joint.axis), np.asarray(joint.origin)
     return dataclasses.replace(joint, origin=_vector(origin - (origin @ axis) * axis))
 
 
-def moved_joint(joint: Joint, shift: Sequence[float]) -> Joint:
+def moved_joint(joint: Joint, shift: Floats) -> Joint:
     """The joint with its origin moved."""
     return dataclasses.replace(joint, origin=_vector(np.add(joint.origin, shift)))
 
 
-def moved_part(part: DraftPart, shift: Sequence[float]) -> DraftPart:
+def moved_part(part: DraftPart, shift: Floats) -> DraftPart:
     """The part with every solid, collision piece and decal moved."""
-    if not any(shift):
+    if not shift.any():
         return part
     return dataclasses.replace(part, bodies=tuple(_moved_body(b, shift) for b in part.bodies))
 
 
-def _moved_body(body: Body, shift: Sequence[float]) -> Body:
+def _moved_body(body: Body, shift: Floats) -> Body:
     return dataclasses.replace(
         body,
         solid=body.solid.at(*shift),
@@ -109,7 +107,7 @@ def _moved_body(body: Body, shift: Sequence[float]) -> Body:
     )
 
 
-def _moved_decal(decal: Decal, shift: Sequence[float]) -> Decal:
+def _moved_decal(decal: Decal, shift: Floats) -> Decal:
     return dataclasses.replace(decal, origin=_vector(np.add(decal.origin, shift)))
 
 

@@ -1,8 +1,7 @@
 """Where parts are at a state: products of joint motions, all in the object frame.
 
 Every part frame coincides with the object frame at rest, so the pose of a part is the product of
-the
-motions of the joints above it (product of exponentials; Murray, Li, Sastry 1994, section 3.2).
+the motions of the joints above it (product of exponentials; Murray, Li, Sastry 1994, section 3.2).
 """
 
 from collections.abc import Sequence
@@ -42,7 +41,8 @@ def resolved(joints: Sequence[Joint], state: State) -> dict[str, float]:
 
 
 def forward_kinematics(base: str, joints: Sequence[Joint], state: State) -> dict[str, Floats]:
-    """Part name to (4, 4) `object_from_rest`: maps a part's points at rest to where they are now."""
+    """Part name to (4, 4) `object_from_rest`: maps a part's points at rest to where they are
+    now."""
     q = resolved(joints, state)
     poses = {base: np.eye(4)}
     for joint in joints:

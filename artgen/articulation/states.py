@@ -24,8 +24,7 @@ def sample_state(
     joints: Sequence[Joint], preconditions: Sequence[Precondition], stream: Stream
 ) -> dict[str, float]:
     """q of every free joint: at rest or evenly over its travel, and at rest where a precondition
-    bars it.
-    """
+    bars it."""
     q = {joint.name: _drawn(joint, stream) for joint in joints if joint.mimic is None}
     return obeying(preconditions, q)
 
@@ -37,8 +36,7 @@ def sample_states(
     count: int,
 ) -> list[dict[str, float]]:
     """`count` states; state t depends on its own number alone, so more states never change earlier
-    ones.
-    """
+    ones."""
     return [sample_state(joints, preconditions, stream.child("state", t)) for t in range(count)]
 
 
@@ -69,8 +67,7 @@ def open_state(
 
 def required_state(joint: str, preconditions: Sequence[Precondition]) -> dict[str, float]:
     """The least state in which `joint` may move: what its preconditions ask for, and theirs in
-    turn.
-    """
+    turn."""
     needed: dict[str, float] = {}
     waiting = [joint]
     while waiting:
@@ -85,7 +82,8 @@ def required_state(joint: str, preconditions: Sequence[Precondition]) -> dict[st
 def check_state(
     joints: Sequence[Joint], preconditions: Sequence[Precondition], state: State
 ) -> None:
-    """Raise KinematicError naming the first joint outside its limits or barred by a precondition."""
+    """Raise KinematicError naming the first joint outside its limits or barred by a
+    precondition."""
     for joint in joints:
         q, (lower, upper) = state.get(joint.name, 0.0), travel(joint)
         if joint.limit is not None and not lower - 1e-12 <= q <= upper + 1e-12:
@@ -93,11 +91,12 @@ def check_state(
     for rule in preconditions:
         if state.get(rule.joint, 0.0) != 0.0 and state.get(rule.requires, 0.0) < rule.at_least:
             raise KinematicError(
-                f"joint {rule.joint}: q = {state[rule.joint]} needs {rule.requires} >= {rule.at_least}, "
-                f"found {state.get(rule.requires, 0.0)}"
+                f"joint {rule.joint}: q = {state[rule.joint]} needs {rule.requires} >= "
+                f"{rule.at_least}, found {state.get(rule.requires, 0.0)}"
             )
 
 
 def motion(joint: Joint, q: float, radius: float) -> float:
-    """ART's S in [-1, 1]: q / (2 pi) when turning, q / (2 radius) when sliding (supplement S4, S5)."""
+    """ART's S in [-1, 1]: q / (2 pi) when turning, q / (2 radius) when sliding (supplement S4,
+    S5)."""
     return float(np.clip(q / (2.0 * (radius if joint.type == "prismatic" else math.pi)), -1.0, 1.0))

@@ -1,8 +1,7 @@
 """What ART is trained on: bounds, type, axis, origin and motion of every part, as arrays.
 
 Positions are in m relative to `center`, the middle of the sphere that holds the object in all
-states.
-"""
+states."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -34,8 +33,7 @@ class Targets:
         motion: (T, P) S in [-1, 1] of the part's own joint: q / (2 radius) or q / (2 pi).
         parent: (P,) int8 index of the parent part; -1 for the base.
         limits: (P, 2) lower and upper of the joint, rad or m; zeros for the base.
-        movable: (P,) bool.
-    """
+        movable: (P,) bool."""
 
     bounds: Floats
     type: NDArray[np.int8]
@@ -88,8 +86,7 @@ def swept_sphere(
     names: Sequence[str], bounds: Sequence[Floats], joints: Sequence[Joint]
 ) -> tuple[Floats, float]:
     """(center, radius) of a sphere about the rest box's middle that holds every part's box at rest
-    and
-    at each end of every joint, one joint at a time."""
+    and at each end of every joint, one joint at a time."""
     boxes = np.asarray(bounds, float)
     center = (boxes[:, 0].min(axis=0) + boxes[:, 1].max(axis=0)) / 2.0
     corners = {

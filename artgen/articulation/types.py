@@ -78,8 +78,8 @@ class Limit:
     def __post_init__(self) -> None:
         if not (self.lower <= 0.0 <= self.upper and self.lower < self.upper):
             raise KinematicError(
-                f"limit [{self.lower}, {self.upper}] must hold lower <= 0 <= upper and not be empty; "
-                "rest is q = 0"
+                f"limit [{self.lower}, {self.upper}] must hold lower <= 0 <= upper and "
+                "not be empty; rest is q = 0"
             )
 
 
@@ -107,8 +107,7 @@ class Joint:
     Attributes:
         axis: unit direction; positive q opens.
         origin: a point on the axis, m; canonical form is the axis point nearest to the object
-            frame's
-            zero (revolute) or zero itself (prismatic).
+            frame's zero (revolute) or zero itself (prismatic).
         limit: None only for continuous joints.
         friction: constant resisting force, N m or N.
         damping: force per speed, N m s/rad or N s/m.
@@ -134,17 +133,16 @@ class Joint:
         norm = math.sqrt(sum(a * a for a in self.axis))
         if abs(norm - 1.0) > 1e-12:
             raise KinematicError(
-                f"joint {self.name}: axis {self.axis} has length {norm!r}, expected 1 within 1e-12; "
-                "normalize it"
+                f"joint {self.name}: axis {self.axis} has length {norm!r}, expected 1 "
+                "within 1e-12; normalize it"
             )
         if (self.limit is None) != (self.type == "continuous"):
-            raise KinematicError(
-                f"joint {self.name}: a {self.type} joint {'has no' if self.limit else 'needs a'} limit"
-            )
+            need = "has no" if self.limit else "needs a"
+            raise KinematicError(f"joint {self.name}: a {self.type} joint {need} limit")
         if min(self.friction, self.damping) < 0.0 or min(self.effort, self.velocity) <= 0.0:
             raise KinematicError(
-                f"joint {self.name}: friction {self.friction} and damping {self.damping} must be >= 0, "
-                f"effort {self.effort} and velocity {self.velocity} > 0"
+                f"joint {self.name}: friction {self.friction} and damping {self.damping} must "
+                f"be >= 0, effort {self.effort} and velocity {self.velocity} > 0"
             )
 
 
@@ -188,8 +186,9 @@ class Mass:
         a, b, c = np.linalg.eigvalsh(self.inertia)
         if not (self.mass > 0.0 and a > 0.0 and a + b >= c * (1.0 - 1e-9)):
             raise GeometryError(
-                f"mass {self.mass} kg with principal inertia {a:.3e}, {b:.3e}, {c:.3e} kg m2 is not a "
-                "rigid body (needs mass > 0 and A + B >= C); check that every body is closed and outward"
+                f"mass {self.mass} kg with principal inertia {a:.3e}, {b:.3e}, {c:.3e} kg m2 is "
+                "not a rigid body (needs mass > 0 and A + B >= C); check that every body is closed "
+                "and outward"
             )
 
 

@@ -1,1 +1,2 @@
-"""Ground floor: arrays, frames, random streams, errors, JSON; numpy and the standard library alone."""
+"""Ground floor: arrays, frames, random streams, errors, JSON; numpy and the standard library
+alone."""

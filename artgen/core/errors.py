@@ -1,6 +1,5 @@
 """The errors that artgen raises on purpose; each says where, what was found, what was expected,
-what to do.
-"""
+what to do."""
 
 
 class ArtgenError(Exception):

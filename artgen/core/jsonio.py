@@ -64,7 +64,8 @@ def write_bytes(path: Path, data: bytes) -> None:
 
 
 def replace_atomically(path: Path, fill: Callable[[Path], None]) -> None:
-    """Let `fill` write `PATH.partial`, then rename it to `path`; nothing half-written is ever seen."""
+    """Let `fill` write `PATH.partial`, then rename it to `path`; nothing half-written is ever
+    seen."""
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_name(f"{path.name}.partial")
     try:

@@ -29,8 +29,7 @@ class TriMesh:
         atlas: (F, 3, 2) float64 inside the unit square without overlap, or None.
         slot: (F,) int16, index into the owner's `surfaces`; zeros when not given.
         body: (F,) int16, which closed body of the part the triangle belongs to; zeros when not
-            given.
-    """
+            given."""
 
     vertices: Floats
     faces: Ints
@@ -61,7 +60,8 @@ class TriMesh:
             raise GeometryError("a mesh has no triangle; the solid it came from is empty")
         if self.faces.min() < 0 or self.faces.max() >= len(self.vertices):
             raise GeometryError(
-                f"a face names vertex {int(self.faces.max())} of {len(self.vertices)}; indices start at 0"
+                f"a face names vertex {int(self.faces.max())} of {len(self.vertices)}; "
+                "indices start at 0"
             )
         a, b, c = self.faces.T
         if ((a == b) | (b == c) | (c == a)).any():

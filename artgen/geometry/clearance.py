@@ -66,7 +66,7 @@ def shape_of_mesh(mesh: TriMesh) -> Shape:
     cuts = np.flatnonzero(np.diff(np.asarray(mesh.body))) + 1
     for faces in np.split(mesh.faces, cuts):
         first, last = int(faces.min()), int(faces.max()) + 1
-        own = np.ascontiguousarray(mesh.vertices[first:last])
+        own = mesh.vertices[first:last].copy()  # manifold3d refuses read-only arrays.
         manifolds.append(m3.Manifold(m3.Mesh64(own, (faces - first).astype(np.uint64))))
         points.append(own)
     return _shape(manifolds, points)

@@ -7,8 +7,7 @@ from artgen.geometry.normals import face_vectors, unit
 
 FLATNESS = 1e-9
 """m; float64 hulls of metre-sized parts carry about 1e-15, rounding to 1e-7 m is done after the
-test.
-"""
+test."""
 
 
 def as_box(mesh: TriMesh) -> tuple[Floats, Floats] | None:
@@ -26,7 +25,8 @@ def as_box(mesh: TriMesh) -> tuple[Floats, Floats] | None:
 
 
 def convexity_gap(mesh: TriMesh) -> float:
-    """The largest distance by which a vertex lies outside a face's plane, m; 0 for a convex mesh."""
+    """The largest distance by which a vertex lies outside a face's plane, m; 0 for a convex
+    mesh."""
     vectors = face_vectors(mesh)
     normals = unit(vectors)[np.linalg.norm(vectors, axis=1) > 1e-14]
     anchors = mesh.triangles[np.linalg.norm(vectors, axis=1) > 1e-14, 0]

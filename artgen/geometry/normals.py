@@ -26,8 +26,7 @@ def corner_normals(mesh: TriMesh, *, crease_deg: float = CREASE_DEG) -> Floats:
     crease.
 
     Weighting by area keeps large flat faces flat and lets narrow bevels carry the bend ("weighted
-    normals").
-    """
+    normals")."""
     vectors = face_vectors(mesh)
     normals = unit(vectors)
     corner_face = np.repeat(np.arange(len(mesh.faces)), 3)

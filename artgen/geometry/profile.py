@@ -36,8 +36,7 @@ def rounded_rectangle(
     width: float, height: float, radius: float | Sequence[float], *, segments: int | None = None
 ) -> Floats:
     """Centred on zero; `radius` for all corners or for (lower left, lower right, upper right, upper
-    left).
-    """
+    left)."""
     radii = [float(radius)] * 4 if isinstance(radius, int | float) else [float(r) for r in radius]
     if max(radii) > min(width, height) / 2.0 + 1e-12:
         raise GeometryError(

@@ -1,9 +1,7 @@
 """An algebra of solids on manifold3d: values in, values out, float64 throughout.
 
 `box`, `slab`, `prism`, `cylinder`, `cone`, `tube`, `revolve`, `wire` and `hull` make solids; `|`,
-`-`,
-`&` combine them; `at`, `turned`, `mirrored` place them. Lengths in m, angles in rad.
-"""
+`-`, `&` combine them; `at`, `turned`, `mirrored` place them. Lengths in m, angles in rad."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -129,7 +127,8 @@ def slab(lower: Sequence[float], upper: Sequence[float]) -> Solid:
     low, high = np.asarray(lower, float), np.asarray(upper, float)
     if not (high > low).all():
         raise GeometryError(
-            f"a slab from {low.tolist()} to {high.tolist()} is empty; upper must exceed lower on each axis"
+            f"a slab from {low.tolist()} to {high.tolist()} is empty; "
+            "upper must exceed lower on each axis"
         )
     return Solid(m3.Manifold.cube(high - low).translate(low))
 
@@ -222,8 +221,7 @@ def wire(path: ArrayLike, radius: float, *, sides: int = 6, closed: bool = False
     inside.
 
     The cross-section is a regular polygon whose area equals that of the round wire, so mass is
-    right.
-    """
+    right."""
     points = np.asarray(path, float)
     fair = radius * math.sqrt(2.0 * math.pi / (sides * math.sin(2.0 * math.pi / sides)))
     rings = _mitred_rings(points, fair, sides, closed)

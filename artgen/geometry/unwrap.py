@@ -1,4 +1,5 @@
-"""Two UV sets: metres on the surface for tileable materials, and one atlas per object for baking."""
+"""Two UV sets: metres on the surface for tileable materials, and one atlas per object for
+baking."""
 
 from collections.abc import Sequence
 
@@ -26,10 +27,8 @@ def metric_uv(vertices: Floats, faces: Ints, *, grain: int | None, place: int) -
     """(F, 3, 2) box projection in metres; u runs along the grain (the longest side unless given).
 
     Each triangle is seen along the axis its normal is nearest to, so lengths are right on axis-
-    aligned
-    faces and at most sqrt(3) short on oblique ones. (u, v, normal) is right-handed: nothing is
-    mirrored.
-    """
+    aligned faces and at most sqrt(3) short on oblique ones. (u, v, normal) is right-handed: nothing
+    is mirrored."""
     extent = vertices.max(axis=0) - vertices.min(axis=0)
     along = int(np.argmax(extent)) if grain is None else grain
     corners = vertices[faces]
@@ -48,8 +47,7 @@ def metric_uv(vertices: Floats, faces: Ints, *, grain: int | None, place: int) -
 
 def _plane_axes(axis: int, sign: float, along: int, extent: Floats) -> tuple[Floats, Floats]:
     """Unit u and v in the plane across `axis`; u along the grain, or along the longer side of an
-    end.
-    """
+    end."""
     if axis == along:
         first, second = (k for k in range(3) if k != axis)
         along = first if extent[first] >= extent[second] else second
@@ -75,8 +73,7 @@ def atlas_uv(parts: Sequence[tuple[Floats, Ints]], *, resolution: int) -> list[F
 
     Charts are the connected pieces of surface that look along one of the six axis directions, laid
     flat along it, so seams fall on the edges of boxes; xatlas packs their rectangles. Its own
-    charts
-    take twelve times as long (3.7 against 0.3 CPU s for 11,000 triangles in 250 bodies).
+    charts take twelve times as long (3.7 against 0.3 CPU s for 11,000 triangles in 250 bodies).
 
     Args:
         parts: vertices (V, 3) and faces (F, 3) of each.
@@ -122,7 +119,8 @@ def _axis_charts(vertices: Floats, faces: Ints) -> tuple[Floats, NDArray[np.int6
 
 
 def _packed(sizes: Floats, resolution: int) -> tuple[Floats, Floats, Floats]:
-    """Corner, right edge and up edge (N, 2) in the unit square for rectangles of `sizes` (N, 2) m."""
+    """Corner, right edge and up edge (N, 2) in the unit square for rectangles of `sizes` (N, 2)
+    m."""
     count = len(sizes)
     width, height = np.maximum(sizes, SMALLEST).T
     zero = np.zeros(count)

@@ -1,6 +1,5 @@
 """Category rules: what may vary and within which bounds, read from TOML and sampled by named
-streams.
-"""
+streams."""
 
 from artgen.rules.load import load_rule, rule_names
 from artgen.rules.sample import Sampled, sample

@@ -95,5 +95,6 @@ def check_keys(rule: CategoryRule, params_type: type, invariants: Invariants) ->
         if name not in invariants:
             raise RuleError(
                 f"{rule.file}: [[invariant]] {name!r} is not defined by the builder"
-                f"{did_you_mean(name, list(invariants))}; defined: {', '.join(invariants) or 'none'}"
+                f"{did_you_mean(name, list(invariants))}; "
+                f"defined: {', '.join(invariants) or 'none'}"
             )
