@@ -1,0 +1,182 @@
+"""L5: the object is what its category says: base first, in order, closed at rest, of real size."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from artgen.articulation.canonical import canonical_order
+from artgen.articulation.types import Joint
+from artgen.core.errors import RuleError
+from artgen.core.mesh import Floats
+from artgen.geometry.clearance import Mover, overlaps
+from artgen.rules import Band, load_rule
+from artgen.validate import bounds
+from artgen.validate.report import Finding, Skipped
+from artgen.validate.subject import Subject
+from artgen.validate.sweep import Sweep, sweep_poses
+
+PUSHES = (0.01, 0.02, 0.04, 0.08, 0.15)
+"""Shares of its range by which a joint is pushed beyond its closed stop."""
+
+
+def base_first(subject: Subject) -> Iterator[Finding]:
+    """The part that no joint moves is listed first, and parents before children."""
+    bundle = subject.bundle
+    moved = {joint.child for joint in bundle.joints}
+    first = bundle.parts[0].name
+    if first in moved:
+        yield _order_finding("semantics.base", first, "a moving part", "the base")
+    placed = {first}
+    for joint in bundle.joints:
+        if joint.parent not in placed:
+            yield _order_finding(
+                "semantics.order", joint.name, "before its parent's", "parents first"
+            )
+        placed.add(joint.child)
+
+
+def order(subject: Subject) -> Iterator[Finding]:
+    """Parts stand in canonical order: low to high, front to back, left to right."""
+    parts = subject.bundle.parts
+    expected = canonical_order([subject.meshes[part.name].bounds for part in parts])
+    for place, index in enumerate(expected):
+        if place != index:
+            yield _order_finding(
+                "semantics.order", parts[index].name, f"place {index}", f"place {place}"
+            )
+
+
+def _order_finding(check: str, part: str, value: str, bound: str) -> Finding:
+    message = "training targets follow this order; canonicalize before finishing"
+    return Finding(check=check, part=part, value=value, bound=bound, message=message)
+
+
+def ground(subject: Subject) -> Iterator[Finding]:
+    """The object stands on z = 0, centered in x and y."""
+    lower, upper = object_bounds(subject)
+    middle = (lower + upper) / 2.0
+    for axis, value in (("x", middle[0]), ("y", middle[1]), ("z", lower[2])):
+        if abs(value) > bounds.GROUND.value:
+            yield Finding(
+                check="semantics.ground",
+                part="object",
+                value=float(value),
+                bound=f"0 within {bounds.GROUND.value:g} m along {axis}",
+                message="cameras and simulators expect it there; canonicalize before finishing",
+            )
+
+
+def object_bounds(subject: Subject) -> Floats:
+    """(2, 3) bounds of all visual meshes at rest, m."""
+    boxes = np.array([mesh.bounds for mesh in subject.meshes.values()])
+    return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+
+
+def bands(subject: Subject) -> Iterator[Finding | Skipped]:
+    """Width, depth, height and mass lie in the category's bands."""
+    category = subject.bundle.category
+    try:
+        rule = load_rule(category)
+    except RuleError as error:
+        yield Skipped(name="semantics.band", reason=f"no bands for {category!r}: {error}")
+        return
+    width, depth, height = np.diff(object_bounds(subject), axis=0)[0].tolist()
+    mass = sum(part.mass.mass for part in subject.bundle.parts)
+    found = {"width": width, "depth": depth, "height": height, "mass": mass}
+    yield from band_findings(rule.file, found, rule.bands)
+
+
+def band_findings(
+    file: str, found: Mapping[str, float], allowed: Mapping[str, Band]
+) -> Iterator[Finding]:
+    """Each measure against its band (m, kg)."""
+    for name, band in allowed.items():
+        if found[name] not in band:
+            unit = "kg" if name == "mass" else "m"
+            yield Finding(
+                check=f"semantics.{name}",
+                part="object",
+                value=found[name],
+                bound=f"{band.lower:g} to {band.upper:g} {unit}",
+                message=f"outside [band.{name}] of {file}; narrow the ranges that it follows from",
+            )
+
+
+def closed_at_rest(subject: Subject) -> Iterator[Finding]:
+    """No part can be pushed in further: pushed beyond its stop, it meets its parent before the box
+    around the two has shrunk."""
+    for joint in subject.bundle.joints:
+        if joint.limit is None or joint.mimic is not None:
+            continue
+        reach = joint.limit.upper - joint.limit.lower
+        states = tuple({joint.name: joint.limit.lower - share * reach} for share in PUSHES)
+        pair = _pair_movers(subject, joint, Sweep(joint=joint.name, states=({}, *states)))
+        boxes = np.concatenate([mover.shape.boxes(mover.poses) for mover in pair], axis=1)
+        extent = boxes[:, :, 1].max(axis=1) - boxes[:, :, 0].min(axis=1)
+        shrink = 1.0 - extent.prod(axis=1) / extent[0].prod()
+        pushed = np.flatnonzero(shrink > bounds.CLOSED_SHRINK.value)
+        if len(pushed) and not any(_crosses(pair, pose) for pose in range(1, pushed[0] + 1)):
+            yield Finding(
+                check="semantics.closed",
+                part=joint.child,
+                value=float(shrink[pushed[0]]),
+                bound=bounds.CLOSED_SHRINK.at_most(),
+                message=f"pushed {PUSHES[pushed[0] - 1]:.0%} of its range beyond rest it "
+                f"still moves freely into {joint.parent}; state the joint from the closed end",
+            )
+
+
+def _pair_movers(subject: Subject, joint: Joint, sweep: Sweep) -> list[Mover]:
+    """Parent and child of a joint with their poses over a sweep."""
+    bundle = subject.bundle
+    poses = sweep_poses(bundle.parts[0].name, bundle.joints, sweep)
+    return [
+        Mover(name=name, shape=subject.shapes[name], poses=poses[name], group=group)
+        for group, name in enumerate((joint.parent, joint.child))
+    ]
+
+
+def _crosses(pair: list[Mover], pose: int) -> bool:
+    """Whether two movers overlap at one of their poses."""
+    at = [
+        Mover(name=m.name, shape=m.shape, poses=m.poses[pose : pose + 1], group=m.group)
+        for m in pair
+    ]
+    return any(overlap.volume > bounds.OVERLAP.value for overlap in overlaps(at))
+
+
+def hinges(subject: Subject) -> Iterator[Finding]:
+    """A hinge's axis lies on an edge of its part's box; a slide is no longer than its part."""
+    for joint in subject.bundle.joints:
+        box = subject.meshes[joint.child].bounds
+        if joint.type == "prismatic" and joint.limit is not None:
+            length = float(np.abs(joint.axis) @ np.diff(box, axis=0)[0])
+            share = (joint.limit.upper - joint.limit.lower) / length
+            if share > bounds.TRAVEL.value:
+                message = "it would leave its rails; shorten the travel"
+                yield _hinge_finding(
+                    "semantics.travel", joint, share, bounds.TRAVEL.at_most(), message
+                )
+        elif joint.type == "revolute":
+            distance = edge_distance(box, np.array(joint.axis), np.array(joint.origin))
+            diagonal = float(np.linalg.norm(np.diff(box, axis=0)))
+            allowed = bounds.HINGE_SHARE.value * diagonal + bounds.HINGE_SLACK.value
+            if distance is not None and distance > allowed:
+                message = "the pivot lies off the part's edge; check the joint's origin"
+                yield _hinge_finding(
+                    "semantics.hinge", joint, distance, f"<= {allowed:.4g} m", message
+                )
+
+
+def edge_distance(box: Floats, axis: Floats, origin: Floats) -> float | None:
+    """From a line along a coordinate axis to a box's nearest parallel edge, m; None if tilted."""
+    along = int(np.argmax(np.abs(axis)))
+    if abs(axis[along]) < 1.0 - 1e-9:
+        return None
+    others = [k for k in range(3) if k != along]
+    gaps = np.abs(box[:, others] - origin[others]).min(axis=0)
+    return float(np.linalg.norm(gaps))
+
+
+def _hinge_finding(check: str, joint: Joint, value: float, bound: str, message: str) -> Finding:
+    return Finding(check=check, part=joint.name, value=value, bound=bound, message=message)

@@ -1,0 +1,265 @@
+"""L3 and L4: MuJoCo accepts the files and agrees with them; nothing interpenetrates; rest holds."""
+
+from collections.abc import Iterator, Sequence
+
+import mujoco
+import numpy as np
+
+from artgen.articulation.kinematics import forward_kinematics, resolved
+from artgen.articulation.types import Joint, State
+from artgen.core.mesh import Floats
+from artgen.core.stream import Stream
+from artgen.export.bundle import Bundle
+from artgen.export.layout import MJCF, URDF
+from artgen.validate import bounds
+from artgen.validate.physics import body_names, set_state
+from artgen.validate.report import Finding
+from artgen.validate.subject import Subject
+from artgen.validate.sweep import Crossing, crossings, sweeps
+
+RANDOM_POSES = 5
+SETTLE_SECONDS = 2.0
+"""Long enough for friction creep and for a part that is not held to swing away."""
+
+
+def compiles(subject: Subject) -> Iterator[Finding]:
+    """MuJoCo compiles MJCF and URDF."""
+    for file in (MJCF, URDF):
+        try:
+            model_of(subject, file)
+        except ValueError as error:
+            yield Finding(
+                check="compile.file",
+                part=file,
+                value=" ".join(str(error).split()),
+                bound="a model",
+                message="MuJoCo refuses the file; its message tells the element",
+            )
+
+
+def model_of(subject: Subject, file: str) -> mujoco.MjModel:
+    """The compiled model of one of the two files."""
+    return subject.mjcf_model if file == MJCF else subject.urdf_model
+
+
+def joints(subject: Subject) -> Iterator[Finding]:
+    """Every joint is there, of its kind, and its limits are really in force."""
+    for file in (MJCF, URDF):
+        model = model_of(subject, file)
+        if model.nv != len(subject.bundle.joints):
+            yield _compile_finding(
+                "compile.dof",
+                file,
+                float(model.nv),
+                f"{len(subject.bundle.joints)} degrees of freedom",
+            )
+            continue
+        for joint in subject.bundle.joints:
+            yield from _joint_findings(file, model, joint)
+
+
+SLIDE = int(mujoco.mjtJoint.mjJNT_SLIDE)
+HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
+
+
+def _joint_findings(file: str, model: mujoco.MjModel, joint: Joint) -> Iterator[Finding]:
+    label = f"{joint.name} ({file})"
+    number = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, joint.name)
+    if number < 0:
+        yield _compile_finding("compile.joint", label, "missing", "a joint of that name")
+        return
+    kind = SLIDE if joint.type == "prismatic" else HINGE
+    if model.jnt_type[number] != kind:
+        yield _compile_finding("compile.joint", label, f"type {model.jnt_type[number]}", f"{kind}")
+    limited = bool(model.jnt_limited[number])
+    if limited != (joint.limit is not None):
+        yield _compile_finding("compile.limit", label, f"limited = {limited}", joint.type)
+    elif joint.limit is not None:
+        found = model.jnt_range[number].tolist()
+        if found != [joint.limit.lower, joint.limit.upper]:
+            expected = f"[{joint.limit.lower}, {joint.limit.upper}]"
+            yield _compile_finding("compile.limit", label, str(found), expected)
+
+
+def _compile_finding(check: str, part: str, value: float | str, bound: str) -> Finding:
+    message = "the compiled model differs from the manifest; check the exporter, then export anew"
+    return Finding(check=check, part=part, value=value, bound=bound, message=message)
+
+
+def masses(subject: Subject) -> Iterator[Finding]:
+    """Compiled mass, centre and inertia of each body are those of the manifest."""
+    for file in (MJCF, URDF):
+        model = model_of(subject, file)
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        numbers = {name: i for i, name in enumerate(body_names(model))}
+        for part in subject.bundle.parts:
+            if part.name not in numbers:
+                yield _compile_finding("compile.body", f"{part.name} ({file})", "missing", "a body")
+                continue
+            body = numbers[part.name]
+            axes = data.ximat[body].reshape(3, 3)
+            tensor = axes @ np.diag(model.body_inertia[body]) @ axes.T
+            worst = {
+                "mass": abs(model.body_mass[body] - part.mass.mass) / part.mass.mass,
+                "center": np.abs(data.xipos[body] - part.mass.center).max(),
+                "inertia": np.abs(tensor - part.mass.inertia).max()
+                / np.abs(part.mass.inertia).max(),
+            }
+            for what, value in worst.items():
+                if not value <= bounds.AGREEMENT.value:
+                    expected = f"{what} of the manifest within {bounds.AGREEMENT.value:g}"
+                    yield _compile_finding(
+                        "compile.mass", f"{part.name} ({file})", float(value), expected
+                    )
+
+
+def kinematics(subject: Subject) -> Iterator[Finding]:
+    """At random states MuJoCo puts every part where our forward kinematics does."""
+    bundle = subject.bundle
+    rng = Stream(0, "validate", bundle.asset_id).generator()
+    free = [joint for joint in bundle.joints if joint.mimic is None]
+    states = [{j.name: _random_q(j, rng) for j in free} for _ in range(RANDOM_POSES)]
+    for file in (MJCF, URDF):
+        model = model_of(subject, file)
+        errors = np.max([_pose_errors(bundle, model, state) for state in states], axis=0)
+        for part, error in zip(bundle.parts, errors.tolist(), strict=True):
+            if not error <= bounds.KINEMATICS.value:
+                yield Finding(
+                    check="motion.kinematics",
+                    part=f"{part.name} ({file})",
+                    value=error,
+                    bound=bounds.KINEMATICS.at_most(),
+                    message="axis, pivot or sign differs from the manifest; check the exporter",
+                )
+
+
+def _random_q(joint: Joint, rng: np.random.Generator) -> float:
+    limit = joint.limit
+    lower, upper = (-np.pi, np.pi) if limit is None else (limit.lower, limit.upper)
+    return float(rng.uniform(lower, upper))
+
+
+def _pose_errors(bundle: Bundle, model: mujoco.MjModel, state: State) -> list[float]:
+    """Largest difference of position (m) or rotation matrix of each part's link frame."""
+    data = mujoco.MjData(model)
+    set_state(model, data, resolved(bundle.joints, state))
+    ours = forward_kinematics(bundle.parts[0].name, bundle.joints, state)
+    pivots = {joint.child: np.array(joint.origin) for joint in bundle.joints}
+    errors = []
+    for part in bundle.parts:
+        body, turn = data.body(part.name), ours[part.name][:3, :3]
+        place = turn @ pivots.get(part.name, np.zeros(3)) + ours[part.name][:3, 3]
+        shift = np.abs(body.xpos - place).max()
+        errors.append(float(max(shift, np.abs(body.xmat.reshape(3, 3) - turn).max())))
+    return errors
+
+
+def collisions(subject: Subject) -> Iterator[Finding]:
+    """Collision pieces of different parts do not meet, at rest and along each joint's range.
+
+    Parents are not exempt: with a fixed base MuJoCo lets them collide, and a drawer would jam.
+    """
+    bundle, model = subject.bundle, subject.mjcf_model
+    data = mujoco.MjData(model)
+    names = body_names(model)
+    worst: dict[tuple[str, str], tuple[float, str]] = {}
+    for sweep in sweeps(bundle.joints, bundle.preconditions):
+        for state in sweep.states:
+            set_state(model, data, resolved(bundle.joints, state))
+            mujoco.mj_collision(model, data)
+            for depth, first, second in contacts(model, data, names):
+                if depth > worst.get((first, second), (bounds.CONTACT.value, ""))[0]:
+                    worst[first, second] = depth, sweep.told(state)
+    for (first, second), (depth, where) in sorted(worst.items()):
+        yield Finding(
+            check="motion.collision",
+            part=f"{first}, {second}",
+            value=depth,
+            bound=bounds.CONTACT.at_most(),
+            message=f"collision pieces meet {where}; author pieces that leave openings open, "
+            "or widen the clearance",
+        )
+
+
+def contacts(
+    model: mujoco.MjModel, data: mujoco.MjData, names: Sequence[str]
+) -> Iterator[tuple[float, str, str]]:
+    """Depth (m, positive inside) and the two bodies of each present contact."""
+    for contact in data.contact:
+        first, second = (names[model.geom_bodyid[geom]] for geom in contact.geom)
+        yield -float(contact.dist), first, second
+
+
+def exact_overlaps(subject: Subject) -> Iterator[Finding]:
+    """Visual meshes of different parts share no volume, at rest and along each joint's range."""
+    bundle = subject.bundle
+    base = bundle.parts[0].name
+    worst: dict[tuple[str, str], Crossing] = {}
+    for crossing in crossings(base, bundle.joints, bundle.preconditions, subject.shapes):
+        pair = (crossing.overlap.first, crossing.overlap.second)
+        if pair not in worst or crossing.overlap.volume > worst[pair].overlap.volume:
+            worst[pair] = crossing
+    for (first, second), crossing in sorted(worst.items()):
+        if crossing.overlap.volume > bounds.OVERLAP.value:
+            where = crossing.sweep.told(crossing.sweep.states[crossing.overlap.pose])
+            yield Finding(
+                check="motion.overlap",
+                part=f"{first}, {second}",
+                value=crossing.overlap.volume,
+                bound=bounds.OVERLAP.at_most(),
+                message=f"the visible parts pass through each other {where}; "
+                "check axis and pivot, or widen the clearance",
+            )
+
+
+def settles(subject: Subject) -> Iterator[Finding]:
+    """Left alone for two seconds, joints stay within the sag and creep of soft constraints."""
+    model = subject.mjcf_model
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    allowed = drift_bound(model, data)
+    mujoco.mj_step(model, data, nstep=round(SETTLE_SECONDS / model.opt.timestep))
+    for number, warning in enumerate(data.warning):
+        if warning.number > 0:
+            name = mujoco.mjtWarning(number).name
+            yield _settle_finding("simulation", name, "no warning", "the simulation is unstable")
+    drift = np.abs(data.qpos)
+    for joint in subject.bundle.joints:
+        number = model.joint(joint.name).id
+        found, bound = float(drift[number]), float(allowed[number])
+        if not found <= bound:
+            cause = (
+                "gravity or a spring moves it from rest, or contact pushes it; raise its friction"
+            )
+            yield _settle_finding(joint.name, found, f"<= {bound:.3g} rad or m", cause)
+
+
+def _settle_finding(part: str, value: float | str, bound: str, cause: str) -> Finding:
+    return Finding(
+        check="motion.settle", part=part, value=value, bound=bound, message=f"after 2 s: {cause}"
+    )
+
+
+def drift_bound(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
+    """How far each joint (a degree of freedom each) may move while friction or a stop holds it.
+
+    MuJoCo's constraints are soft: with impedance d and the acceleration a that the joint would have
+    if free, it ends where the reference acceleration is (1 - d) / d a. So a stop (solref t, z) sags
+    by (1 - d) / d a (dmax t z)^2 / d, and friction creeps at (1 - d) / d a dmax t / 2
+    (MuJoCo manual, Computation, Parameters). A joint that neither holds has no such excuse.
+    """
+    free = np.abs(data.qacc_smooth)
+    stop = _softness(model.jnt_solimp) * free
+    sag = stop * (model.jnt_solimp[:, 1] * model.jnt_solref[:, :2].prod(axis=1)) ** 2
+    creep = (
+        _softness(model.dof_solimp) * free * model.dof_solimp[:, 1] * model.dof_solref[:, 0] / 2.0
+    )
+    held = np.where(model.dof_frictionloss > 0.0, creep * SETTLE_SECONDS, 0.0)
+    stopped = np.where(model.jnt_limited, sag / model.jnt_solimp[:, 0], 0.0)
+    return np.asarray(bounds.SETTLE_FACTOR.value * (held + stopped) + bounds.SETTLE_FLOOR.value)
+
+
+def _softness(solimp: Floats) -> Floats:
+    """(1 - d) / d at the softest impedance d of each constraint."""
+    return np.asarray((1.0 - solimp[:, 0]) / solimp[:, 0])

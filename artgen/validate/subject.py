@@ -1,0 +1,67 @@
+"""What the checks look at: a bundle's files, each read once and when first needed."""
+
+import json
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import mujoco
+
+from artgen.core.mesh import TriMesh
+from artgen.export.bundle import Bundle, read_bundle
+from artgen.export.layout import MANIFEST, MJCF, URDF
+from artgen.geometry.clearance import Shape, shape_of_mesh
+from artgen.validate.objfile import read_triangles
+from artgen.validate.physics import compiled
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Subject:
+    """One bundle under test; properties raise what reading raises, checks of the first levels turn
+    that into findings."""
+
+    folder: Path
+
+    @cached_property
+    def manifest(self) -> Mapping[str, Any]:
+        """The manifest as it stands."""
+        data: Mapping[str, Any] = json.loads((self.folder / MANIFEST).read_text(encoding="utf-8"))
+        return data
+
+    @cached_property
+    def urdf(self) -> ET.Element:
+        """The URDF's root element."""
+        return ET.parse(self.folder / URDF).getroot()
+
+    @cached_property
+    def mjcf(self) -> ET.Element:
+        """The MJCF's root element."""
+        return ET.parse(self.folder / MJCF).getroot()
+
+    @cached_property
+    def bundle(self) -> Bundle:
+        """The manifest as typed values."""
+        return read_bundle(self.folder)
+
+    @cached_property
+    def meshes(self) -> Mapping[str, TriMesh]:
+        """Part name to its visual mesh, in the order of the manifest."""
+        return {part.name: read_triangles(self.folder / part.mesh) for part in self.bundle.parts}
+
+    @cached_property
+    def shapes(self) -> Mapping[str, Shape]:
+        """Part name to its closed bodies."""
+        return {name: shape_of_mesh(mesh) for name, mesh in self.meshes.items()}
+
+    @cached_property
+    def mjcf_model(self) -> mujoco.MjModel:
+        """What MuJoCo makes of the MJCF."""
+        return compiled(self.folder / MJCF)
+
+    @cached_property
+    def urdf_model(self) -> mujoco.MjModel:
+        """What MuJoCo makes of the URDF."""
+        return compiled(self.folder / URDF)
