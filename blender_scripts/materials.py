@@ -5,6 +5,7 @@ from pathlib import Path
 import bpy
 
 from artgen.finish_jobs import GltfSurface
+from artgen.render_job import ThinGlass
 from blender_scripts.meshes import UV
 
 
@@ -52,3 +53,29 @@ def _image(tree: bpy.types.NodeTree, path: str, space: str) -> bpy.types.ShaderN
     place.uv_map = UV
     tree.links.new(place.outputs["UV"], node.inputs["Vector"])
     return node
+
+
+def make_thin_glass(pane: ThinGlass) -> None:
+    """Rebuild an imported material as a pane that mirrors by Fresnel's law and else lets light pass
+    straight; refraction in a flat pane only shifts the view by a fraction of its thickness."""
+    tree = bpy.data.materials[pane.surface].node_tree
+    tree.nodes.clear()
+    clear = tree.nodes.new("ShaderNodeBsdfTransparent")
+    clear.inputs["Color"].default_value = (*pane.tint, 1.0)
+    mirror = tree.nodes.new("ShaderNodeBsdfAnisotropic")
+    mirror.inputs["Roughness"].default_value = pane.roughness
+    # Cycles inverts the index on back faces, where straight rays would then reflect totally; the
+    # inverse of the inverse keeps both faces alike.
+    side = tree.nodes.new("ShaderNodeNewGeometry")
+    index = tree.nodes.new("ShaderNodeMix")
+    index.data_type = "FLOAT"
+    index.inputs["A"].default_value, index.inputs["B"].default_value = pane.ior, 1.0 / pane.ior
+    fresnel = tree.nodes.new("ShaderNodeFresnel")
+    mixed = tree.nodes.new("ShaderNodeMixShader")
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(side.outputs["Backfacing"], index.inputs["Factor"])
+    tree.links.new(index.outputs["Result"], fresnel.inputs["IOR"])
+    tree.links.new(fresnel.outputs["Fac"], mixed.inputs["Fac"])
+    tree.links.new(clear.outputs["BSDF"], mixed.inputs[1])
+    tree.links.new(mirror.outputs["BSDF"], mixed.inputs[2])
+    tree.links.new(mixed.outputs["Shader"], output.inputs["Surface"])

@@ -22,12 +22,13 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TextIO
 
-from blender_scripts import bevel, gltf
+from blender_scripts import bevel, gltf, render
 
 log = logging.getLogger("blender_scripts.worker")
 
 JOBS: Mapping[str, Callable[[Mapping[str, Any], int], dict[str, Any]]] = {
     "gltf": gltf.run,
+    "render": render.run,
     "round": bevel.run,
 }
 """Kind of job to what runs it: (job, render threads) -> report."""

@@ -1,0 +1,113 @@
+"""Camera: a pinhole with OpenCV axes; and the nearest place from which it sees given points."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from artgen.core.mesh import Floats, frozen
+from artgen.core.transform import apply, inverted, look_at
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Camera:
+    """A pinhole whose principal point is the middle of the image.
+
+    Attributes:
+        focal: px, the same along x and y.
+        size: (width, height) px; the centre of the first pixel is at (0.5, 0.5).
+        camera_from_world: (4, 4) rigid; x right, y down, z forward, m.
+    """
+
+    focal: float
+    size: tuple[int, int]
+    camera_from_world: Floats
+
+    def __post_init__(self) -> None:
+        matrix = frozen(np.asarray(self.camera_from_world).reshape(4, 4), np.float64)
+        object.__setattr__(self, "camera_from_world", matrix)
+        object.__setattr__(self, "size", (int(self.size[0]), int(self.size[1])))
+
+    @classmethod
+    def from_plain(cls, stated: Mapping[str, Any]) -> Self:
+        """The camera that `plain` turned into JSON."""
+        return cls(**{**stated, "camera_from_world": np.array(stated["camera_from_world"])})
+
+    @property
+    def intrinsics(self) -> Floats:
+        """(3, 3) px."""
+        width, height = self.size
+        return np.array([[self.focal, 0, width / 2], [0, self.focal, height / 2], [0, 0, 1.0]])
+
+    @property
+    def position(self) -> Floats:
+        """(3,) m, world."""
+        return np.asarray(inverted(self.camera_from_world)[:3, 3])
+
+    def project(self, points: ArrayLike) -> Floats:
+        """(..., 3) px x, px y and depth (m, along z) of world points."""
+        local = apply(self.camera_from_world, points)
+        depth = local[..., 2:]
+        middle = np.array(self.size) / 2.0
+        return np.concatenate([self.focal * local[..., :2] / depth + middle, depth], axis=-1)
+
+    def rays(self) -> tuple[Floats, Floats]:
+        """Origin (3,) and directions (H, W, 3) through the pixel centres, world; a direction is as
+        long as one metre of depth, so that points are origin + depth * direction."""
+        width, height = self.size
+        x = (np.arange(width) + 0.5 - width / 2.0) / self.focal
+        y = (np.arange(height) + 0.5 - height / 2.0) / self.focal
+        local = np.stack([*np.meshgrid(x, y), np.ones((height, width))], axis=-1)
+        return self.position, local @ self.camera_from_world[:3, :3]
+
+
+def orbit_direction(azimuth: float, elevation: float) -> Floats:
+    """(3,) unit vector from the object to the eye; azimuth 0 is the front (-y) and grows towards
+    +x, rad."""
+    flat = math.cos(elevation)
+    return np.array([flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(elevation)])
+
+
+def framed(
+    points: ArrayLike,
+    *,
+    direction: Sequence[float] | Floats,
+    fov: float,
+    size: tuple[int, int],
+    fill: float,
+) -> Camera:
+    """The camera along `direction` that comes as near as keeps all points within the image.
+
+    Args:
+        points: (N, 3) m, world.
+        direction: unit vector from the object to the eye; not vertical.
+        fov: across the shorter side of the image, rad.
+        fill: share of the image's half width and height that the points may use, in (0, 1].
+    """
+    cloud = np.asarray(points, float)
+    target = (cloud.min(axis=0) + cloud.max(axis=0)) / 2.0
+    toward = np.asarray(direction, float)
+    turned = inverted(look_at(target + toward, target))[:3, :3]
+    focal = min(size) / 2.0 / math.tan(fov / 2.0)
+    local = (cloud - target) @ turned.T
+    slope = fill * np.array(size) / 2.0 / focal
+    target = target + _centering(local, slope) @ turned
+    local = (cloud - target) @ turned.T
+    distance = float((np.abs(local[:, :2]) / slope - local[:, 2:]).max())
+    eye = target + distance * toward
+    return Camera(focal=focal, size=size, camera_from_world=inverted(look_at(eye, target)))
+
+
+def _centering(local: Floats, slope: Floats) -> Floats:
+    """(3,) sideways move, in camera axes, after which both borders of the image hold the points
+    back equally.
+
+    A point at (x, z) needs the eye at distance >= |x - s| / slope - z; with s moved to the middle,
+    the needs of the leftmost and the rightmost point are equal.
+    """
+    right = (local[:, :2] / slope - local[:, 2:]).max(axis=0)
+    left = (-local[:, :2] / slope - local[:, 2:]).max(axis=0)
+    return np.array([*(slope * (right - left) / 2.0), 0.0])

@@ -1,0 +1,139 @@
+"""RenderJob: what Blender is asked to render, as plain data."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+from artgen.core.camera import Camera
+
+Color = tuple[float, float, float]
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class AreaLight:
+    """A rectangle that shines to one side, as a softbox does.
+
+    Attributes:
+        position: of its middle, m, world.
+        target: the point it faces, m, world.
+        size: (width, height) m.
+        radiance: linear RGB; a white wall that sees nothing but this light shows its radiance.
+    """
+
+    position: Point
+    target: Point
+    size: tuple[float, float]
+    radiance: Color
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sky:
+    """A smooth surrounding, linear RGB radiance by direction: from below, level, from above."""
+
+    nadir: Color
+    horizon: Color
+    zenith: Color
+
+
+@dataclass(frozen=True, kw_only=True)
+class LightRig:
+    """Everything that shines; `name` is the rig's identifier."""
+
+    name: str
+    lights: tuple[AreaLight, ...]
+    sky: Sky
+
+
+@dataclass(frozen=True, kw_only=True)
+class ThinGlass:
+    """A flat pane, rendered by Fresnel's law without refraction."""
+
+    surface: str
+    ior: float
+    tint: Color
+    roughness: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Transport:
+    """Which light transport is computed; what a scene does not call for is off.
+
+    Attributes:
+        diffuse: bounces; 0 renders direct light alone.
+        glossy: bounces.
+        transmission: bounces inside refracting bodies; 0 without any.
+        transparent: panes that a ray may cross.
+        clamp_indirect: largest indirect contribution of one path, linear.
+        panes: surfaces that are rendered as thin glass.
+    """
+
+    diffuse: int
+    glossy: int
+    transmission: int
+    transparent: int
+    clamp_indirect: float
+    panes: tuple[ThinGlass, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shot:
+    """One image.
+
+    Attributes:
+        file: name of the EXR in the job's folder.
+        camera, state: indices into the job.
+        part: the only part in the scene, or None for all.
+        box: (left, top, right, bottom) px, half open; the EXR holds this window of the image.
+        samples: paths a pixel."""
+
+    file: str
+    camera: int
+    state: int
+    part: str | None
+    box: tuple[int, int, int, int]
+    samples: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderJob:
+    """Images of one GLB.
+
+    Attributes:
+        glb: absolute path.
+        folder: absolute path of a folder that exists; receives the EXR files.
+        states: part name to (4, 4) `object_from_rest`, row by row, for each state.
+        shots: rendered in this order; no image depends on it.
+        seed: of the path tracer.
+        denoise: pass every image through OpenImageDenoise.
+    """
+
+    glb: str
+    folder: str
+    cameras: tuple[Camera, ...]
+    states: tuple[Mapping[str, Any], ...]
+    rig: LightRig
+    transport: Transport
+    shots: tuple[Shot, ...]
+    seed: int
+    denoise: bool = True
+    kind: str = field(default="render")
+
+    @classmethod
+    def from_plain(cls, job: Mapping[str, Any]) -> Self:
+        """The job that `plain` turned into JSON."""
+        rig, transport = job["rig"], job["transport"]
+        typed = {
+            "cameras": tuple(Camera.from_plain(camera) for camera in job["cameras"]),
+            "states": tuple(job["states"]),
+            "rig": LightRig(
+                name=rig["name"],
+                lights=tuple(AreaLight(**light) for light in rig["lights"]),
+                sky=Sky(**rig["sky"]),
+            ),
+            "transport": Transport(
+                **{**transport, "panes": tuple(ThinGlass(**pane) for pane in transport["panes"])}
+            ),
+            "shots": tuple(Shot(**shot) for shot in job["shots"]),
+        }
+        return cls(**{**job, **typed})
