@@ -1,1 +1,31 @@
-"""Image sets for surfaces, synthesised in numpy."""
+"""Image sets for surfaces, synthesised in numpy; equal specs give equal images on every machine."""
+
+from collections.abc import Callable, Mapping
+
+from artgen.core.errors import UsageError
+from artgen.core.surface import SurfaceSpec
+from artgen.textures.images import TextureSet
+from artgen.textures.plain import plain
+
+__all__ = ["RECIPES", "VERSION", "TextureSet", "texture_set"]
+
+VERSION = 1
+"""Raised when a recipe gives other images for the same spec."""
+
+RECIPES: Mapping[str, Callable[[SurfaceSpec], TextureSet]] = {
+    "plain": plain,
+}
+
+
+def texture_set(spec: SurfaceSpec) -> TextureSet:
+    """The images of a surface.
+
+    Raises:
+        UsageError: the recipe is unknown.
+    """
+    if spec.recipe not in RECIPES:
+        raise UsageError(
+            f"surface {spec.name}: there is no texture recipe {spec.recipe!r}; "
+            f"known: {', '.join(sorted(RECIPES))}"
+        )
+    return RECIPES[spec.recipe](spec)
