@@ -1,0 +1,155 @@
+"""What every category promises; a new one is found by its rule file and asked the same."""
+
+import dataclasses
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from artgen.articulation.canonical import canonical_order, canonicalize
+from artgen.articulation.kinematics import forward_kinematics
+from artgen.articulation.states import required_state
+from artgen.articulation.types import ArticulatedObject, Joint, Limit
+from artgen.core.transform import apply
+from artgen.generators import load_builder
+from artgen.geometry.measure import open_edges, total_volume
+from artgen.geometry.unwrap import texel_density
+from artgen.rules import load_rule
+from tests.made import CATEGORIES, SEED, drafted, drawn, finished, object_hash
+
+ASSETS = [(category, index) for category in CATEGORIES for index in (0, 1)]
+every_asset = pytest.mark.parametrize(("category", "index"), ASSETS)
+every_category = pytest.mark.parametrize("category", CATEGORIES)
+
+
+def joint_id(joint: Joint) -> str:
+    return f"{joint.name} ({joint.type})"
+
+
+@every_category
+def test_the_rule_has_many_numbers_and_choices(category: str) -> None:
+    rule = load_rule(category)
+    kinds = [type(draw.distribution).__name__ for draw in rule.draws.values()]
+    assert sum(kind in ("Uniform", "LogUniform", "Normal", "Integer") for kind in kinds) >= 12
+    assert sum(kind in ("Choice", "Chance", "Integer") for kind in kinds) >= 3
+    assert dataclasses.is_dataclass(load_builder(category).params_type)
+
+
+@every_category
+def test_the_same_seed_gives_the_same_object_in_a_fresh_process(category: str) -> None:
+    code = (
+        "from tests.made import finished, object_hash;"
+        f"print(object_hash(finished({category!r}, 0)))"
+    )
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert told.stdout.strip() == object_hash(finished(category, 0))
+
+
+@every_category
+def test_different_indices_give_different_objects(category: str) -> None:
+    assert object_hash(finished(category, 0)) != object_hash(finished(category, 1))
+    assert drawn(category, 0).params != drawn(category, 1).params
+
+
+@every_asset
+def test_parts_and_joints_are_in_canonical_form(category: str, index: int) -> None:
+    obj = finished(category, index)
+    bounds = [part.mesh.bounds for part in obj.parts]
+    assert canonical_order(bounds) == list(range(len(bounds)))
+    noise = np.random.Generator(np.random.PCG64(SEED)).uniform(-1e-6, 1e-6, (len(bounds), 2, 3))
+    assert canonical_order([b + n for b, n in zip(bounds, noise, strict=True)]) == list(
+        range(len(bounds))
+    )
+    once = canonicalize(drafted(category, index))
+    assert canonicalize(once).joints == once.joints
+
+
+@every_asset
+def test_it_stands_on_the_floor_in_the_middle(category: str, index: int) -> None:
+    boxes = np.array([part.mesh.bounds for part in finished(category, index).parts])
+    lower, upper = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
+    # Vertices are rounded to 1e-7 m, each end by half of that.
+    assert abs(lower[2]) <= 1e-7
+    assert np.abs(lower + upper)[:2].max() <= 2e-7
+
+
+@every_asset
+def test_every_body_is_closed_outward_and_thick(category: str, index: int) -> None:
+    for part in finished(category, index).parts:
+        for body in np.unique(part.mesh.body):
+            faces = part.mesh.faces[part.mesh.body == body]
+            own = dataclasses.replace(
+                part.mesh, faces=faces, uv=None, atlas=None, slot=None, body=None
+            )
+            assert open_edges(faces) == 0
+            assert total_volume(own) > 1e-12  # A cube of 0.1 mm.
+
+
+@every_asset
+def test_names_say_what_parts_are(category: str, index: int) -> None:
+    obj = finished(category, index)
+    assert obj.base.name == obj.base.label == "base"
+    assert all(part.label for part in obj.parts)
+    assert {surface.name for surface in obj.surfaces} >= {
+        obj.surfaces[slot].name for part in obj.parts for slot in np.unique(part.mesh.slot)
+    }
+
+
+def movers(obj: ArticulatedObject) -> list[Joint]:
+    return [joint for joint in obj.joints if joint.mimic is None]
+
+
+@every_asset
+def test_positive_q_opens(category: str, index: int) -> None:
+    """The middle of the part starts forwards or upwards, away from the closed object."""
+    obj = finished(category, index)
+    for joint in movers(obj):
+        middle = next(p for p in obj.parts if p.name == joint.child).mesh.bounds.mean(axis=0)
+        before = required_state(joint.name, obj.preconditions)
+        step = 0.05 * (joint.limit.upper if joint.limit else 1.0)
+        poses = [
+            forward_kinematics("base", obj.joints, {**before, joint.name: q}) for q in (0.0, step)
+        ]
+        moved = apply(poses[1][joint.child], middle) - apply(poses[0][joint.child], middle)
+        assert max(-moved[1], moved[2]) > 0.0, joint_id(joint)
+
+
+@every_asset
+def test_people_can_open_it(category: str, index: int) -> None:
+    """Doors resist with 0.5 to 5 N m and drawers with 5 to 50 N, and the effort limit is above."""
+    for joint in movers(finished(category, index)):
+        lower, upper = (5.0, 50.0) if joint.type == "prismatic" else (0.5, 5.0)
+        assert lower <= joint.friction <= upper, joint_id(joint)
+        assert joint.effort > joint.friction, joint_id(joint)
+
+
+@every_asset
+def test_preconditions_can_be_met(category: str, index: int) -> None:
+    obj = finished(category, index)
+    limits = {
+        joint.name: joint.limit or Limit(lower=-math.pi, upper=math.pi) for joint in obj.joints
+    }
+    for rule in obj.preconditions:
+        assert 0.0 < rule.at_least <= limits[rule.requires].upper
+
+
+@every_asset
+def test_textures_are_in_scale_and_the_atlas_in_its_square(category: str, index: int) -> None:
+    obj = finished(category, index)
+    for part in obj.parts:
+        corners = part.mesh.triangles
+        area = np.linalg.norm(
+            np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+        )
+        wide = area > 1e-6
+        tiled = np.array([obj.surfaces[s].tile for s in part.mesh.slot])
+        density = texel_density(corners, part.mesh.uv)
+        # Box projection shortens a face by at most sqrt(3), and its area's root by 3^(1/4).
+        decal = np.array([obj.surfaces[s].recipe for s in part.mesh.slot]) != "wood"
+        assert density[wide & ~decal].size == 0 or density[wide & ~decal].min() > 3**-0.25 - 1e-2
+        assert density[wide].max() < 1.0 + 1e-2
+        assert part.mesh.atlas.min() >= 0.0
+        assert part.mesh.atlas.max() <= 1.0
+        assert (tiled > 0.0).all()

@@ -1,0 +1,27 @@
+"""What is missing is named by its Debian package."""
+
+from pathlib import Path
+
+from artgen import doctor
+
+
+def test_missing_libraries_become_packages() -> None:
+    missing = ["libX11.so.6", "libXi.so.6", "libnovel.so.3"]
+    assert doctor.debian_packages(missing) == ["libnovel.so.3", "libx11-6", "libxi6"]
+
+
+def test_the_report_says_what_to_install(monkeypatch) -> None:
+    monkeypatch.setattr(doctor, "missing_libraries", lambda: ["libXi.so.6"])
+    findings = {finding.subject: finding for finding in doctor.examine(Path())}
+    assert "apt-get install -y libxi6" in findings["system libraries"].remedy
+
+
+def test_a_ready_machine_has_no_remedies_and_exit_code_0(capsys) -> None:
+    assert doctor.doctor([]) == 0
+    assert "ready" in capsys.readouterr().out
+
+
+def test_a_full_disk_is_said(monkeypatch) -> None:
+    monkeypatch.setattr(doctor.shutil, "disk_usage", lambda place: type("", (), {"free": 1e6})())
+    findings = {finding.subject: finding for finding in doctor.examine(Path("not/yet/there"))}
+    assert "free some space" in findings["disk"].remedy
