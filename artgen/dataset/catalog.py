@@ -50,6 +50,8 @@ ASSETS = pa.schema(
         ("triangles", pa.int64()),
         ("parts", pa.list_(pa.struct([("name", pa.string()), ("label", pa.string())]))),
         ("joints", pa.list_(_JOINT)),
+        ("opening_deg", pa.float64()),
+        ("travel", pa.float64()),
         ("rule_version", pa.int64()),
         ("artgen", pa.string()),
         ("folder", pa.string()),
@@ -58,7 +60,10 @@ ASSETS = pa.schema(
         ("shard", pa.string()),
     ]
 )
-"""Columns of assets.parquet; lengths in m, angles in rad (`*_deg` in degrees, null for sliders)."""
+"""Columns of assets.parquet; lengths in m, angles in rad, `*_deg` in degrees (null for sliders).
+
+`opening_deg` is the farthest that a hinge opens, `travel` the farthest that a slider does.
+"""
 SAMPLES = pa.schema(
     [
         ("asset_id", pa.string()),
@@ -140,10 +145,10 @@ def sample_rows(shards: Path, packing: Packing) -> Iterator[dict[str, Any]]:
 
 
 def _bundle_columns(folder: Path) -> dict[str, Any]:
-    """Columns from a bundle's manifest; none for an asset that failed before it had one."""
+    """Columns from a bundle's manifest; nearly none for an asset that failed before it had one."""
     path = folder / "manifest.json"
     if not path.exists():
-        return {}
+        return {"parts": [], "joints": []}
     facts = json.loads(path.read_text(encoding="utf-8"))
     if facts.get("schema") != BUNDLE_SCHEMA:
         raise ShardError(
@@ -151,8 +156,11 @@ def _bundle_columns(folder: Path) -> dict[str, Any]:
             f"{BUNDLE_SCHEMA!r}; generate the asset again into a new folder"
         )
     (x0, y0, z0), (x1, y1, z1) = facts["bounds"]
+    joints = [_joint_columns(joint) for joint in facts["joints"]]
+    slides = [joint["upper"] for joint in joints if joint["type"] == "prismatic"]
+    openings = [joint["upper_deg"] for joint in joints if joint["upper_deg"] is not None]
     return {
-        "seed": facts["seed"],
+        "seed": facts.get("seed"),
         "mass": facts["mass"],
         "width": x1 - x0,
         "depth": y1 - y0,
@@ -160,8 +168,10 @@ def _bundle_columns(folder: Path) -> dict[str, Any]:
         "radius": facts["radius"],
         "triangles": sum(part["triangles"] for part in facts["parts"]),
         "parts": [{"name": part["name"], "label": part["label"]} for part in facts["parts"]],
-        "joints": [_joint_columns(joint) for joint in facts["joints"]],
-        "rule_version": facts["rule"]["version"],
+        "joints": joints,
+        "opening_deg": max(openings, default=None),
+        "travel": max(slides, default=None),
+        "rule_version": facts.get("rule", {}).get("version"),
         "artgen": facts["versions"]["artgen"],
         "files": len(facts["files"]),
         "bytes": sum(file["bytes"] for file in facts["files"].values()),

@@ -63,7 +63,8 @@ class SampleMeta:
         asset_id: lower-case letters, digits and `_`; names the sample's members.
         parts: the parts that the arrays hold, in canonical order, base first.
         joints: all joints of the asset, in the order of the columns of `Sample.q`.
-        versions: program to version, e.g. `{"artgen": "0.1.0", "bpy": "4.5.15"}`.
+        versions: program to version, e.g. `{"artgen": "0.1.0", "bpy": "4.5.15"}`; None where a
+            program was not there.
         shading: what the colors are, e.g. `cycles`.
         light: the light rig's identifier.
         effects: post-render effects by name; empty when none was asked for.
@@ -78,7 +79,7 @@ class SampleMeta:
     parts: tuple[PartLabel, ...]
     joints: tuple[Joint, ...]
     preconditions: tuple[Precondition, ...] = ()
-    versions: Mapping[str, str] = field(default_factory=dict)
+    versions: Mapping[str, str | None] = field(default_factory=dict)
     shading: str
     light: str
     effects: Mapping[str, object] = field(default_factory=dict)
@@ -168,7 +169,7 @@ class Sample:
         part_normal: (T, V, P, H, W, 3) float32, as `normal`.
         cameras: intrinsics (V, 3, 3), camera_from_world (T, V, 4, 4).
         targets: ART's (B, C, D, O, S); positions relative to `center`.
-        q: (T, J) joint values, rad or m, in the order of `meta.joints`.
+        q: (T, J) joint values, rad or m, in the order of `meta.joints`, mimics included.
         center: (3,) middle of the bounding sphere, m, object frame.
         radius: of the bounding sphere, m.
     """
