@@ -1,0 +1,67 @@
+"""The picture of a bundle: three-quarter view, ajar, transparent ground."""
+
+import math
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from artgen.articulation.kinematics import forward_kinematics
+from artgen.articulation.states import open_state
+from artgen.articulation.types import ArticulatedObject
+from artgen.core.camera import framed, orbit_direction
+from artgen.core.jsonio import plain
+from artgen.core.mesh import Floats
+from artgen.core.transform import apply
+from artgen.imaging import display, read_exr, write_png
+from artgen.render_job import RenderJob, Shot
+from artgen.studio import portrait_rig
+from artgen.transport import needed_transport
+from artgen.worker import BlenderWorker
+
+SIZE = 256
+SAMPLES = 8
+"""With the denoiser, 33 dB at 256 px; 32 would cost 4 CPU s more."""
+OPEN = 0.6
+"""Share of every joint's travel; shows what moves and still the whole front."""
+DIRECTION = orbit_direction(math.radians(32.0), math.radians(20.0))
+FOV = math.radians(30.0)
+FILL = 0.95
+TIMEOUT_S = 120.0
+
+
+def write_thumbnail(
+    obj: ArticulatedObject, *, glb: Path, output: Path, worker: BlenderWorker
+) -> None:
+    """Render the GLB of `obj` into a PNG of 256 x 256 px, sRGB with straight alpha.
+
+    Raises:
+        WorkerError: Blender failed. RenderError: the image cannot be read back.
+    """
+    with tempfile.TemporaryDirectory() as scratch:
+        job = thumbnail_job(obj, glb=glb, folder=Path(scratch))
+        worker.run(plain(job), timeout_s=TIMEOUT_S)
+        write_png(output, display(read_exr(Path(scratch) / job.shots[0].file)))
+
+
+def thumbnail_job(obj: ArticulatedObject, *, glb: Path, folder: Path) -> RenderJob:
+    """One view of the object ajar."""
+    state = open_state(obj.joints, obj.preconditions, OPEN)
+    poses = forward_kinematics(obj.base.name, obj.joints, state)
+    points: Floats = np.concatenate(
+        [apply(poses[part.name], part.mesh.vertices) for part in obj.parts]
+    )
+    low, high = points.min(axis=0), points.max(axis=0)
+    shot = Shot(
+        file="view.exr", camera=0, state=0, part=None, box=(0, 0, SIZE, SIZE), samples=SAMPLES
+    )
+    return RenderJob(
+        glb=str(glb.resolve()),
+        folder=str(folder),
+        cameras=(framed(points, direction=DIRECTION, fov=FOV, size=(SIZE, SIZE), fill=FILL),),
+        states=(poses,),
+        rig=portrait_rig(center=(low + high) / 2.0, radius=float(np.linalg.norm(high - low) / 2.0)),
+        transport=needed_transport(obj.surfaces),
+        shots=(shot,),
+        seed=0,
+    )
