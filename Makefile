@@ -64,7 +64,7 @@ gallery: install ## rewrite the pictures in docs/
 	$(BIN)/python -m renders.gallery
 
 bench: install-test ## measure the figures in docs/benchmarks.md
-	$(BIN)/artgen bench
+	$(BIN)/python -m tests.bench.figures
 
 ci: test ## what CI runs
 

@@ -123,7 +123,7 @@ def render_and_pack(command: Generate) -> int:
             *("--workers", str(command.workers)),
         ],
     )
-    return max(rendered, run_command("shard", [out]))
+    return max(rendered, run_command("shard", ["--out", out]))
 
 
 COLUMNS = (

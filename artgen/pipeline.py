@@ -148,8 +148,8 @@ def make_asset(task: AssetTask, tools: Toolbox) -> Outcome:
         write_bundle(obj, partial, library=tools.textures, worker=tools.blender)
         watch.lap("export")
         report = validate_bundle(partial)
-        write_json(partial / "report.json", plain(report))
-        messages.extend(f"{f.check} {f.part}: {f.message}" for f in report.findings)
+        write_json(partial / "report.json", report.as_json())
+        messages.extend(str(finding) for finding in report.findings)
         watch.lap("validate")
 
     fill_folder_atomically(staged, fill)

@@ -1,4 +1,4 @@
-"""The output folder of a run: whose it is, what lies where, and the lock that lets one run write."""
+"""The output folder of a run: whose it is, what lies where, and the lock that admits one run."""
 
 import json
 import os

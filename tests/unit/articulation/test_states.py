@@ -26,9 +26,27 @@ from artgen.core.transform import apply
 from tests.strategies import trees
 
 PHYSICS = {"friction": 1.0, "damping": 0.1, "effort": 10.0}
-DOOR = Joint(name="door", type="revolute", parent="base", child="door", axis=(1.0, 0.0, 0.0), origin=(0.0, -0.3, 0.1), limit=Limit(lower=0.0, upper=1.5), **PHYSICS)  # fmt: skip
-RACK = Joint(name="rack", type="prismatic", parent="base", child="rack", axis=(0.0, -1.0, 0.0), limit=Limit(lower=0.0, upper=0.5), **PHYSICS)  # fmt: skip
-BASKET = Joint(name="basket", type="prismatic", parent="rack", child="basket", axis=(0.0, 0.0, 1.0), limit=Limit(lower=0.0, upper=0.2), **PHYSICS)  # fmt: skip
+
+
+def sliding(name: str, parent: str, axis: tuple, upper: float) -> Joint:
+    limit = Limit(lower=0.0, upper=upper)
+    return Joint(
+        name=name, type="prismatic", parent=parent, child=name, axis=axis, limit=limit, **PHYSICS
+    )
+
+
+DOOR = Joint(
+    name="door",
+    type="revolute",
+    parent="base",
+    child="door",
+    axis=(1.0, 0.0, 0.0),
+    origin=(0.0, -0.3, 0.1),
+    limit=Limit(lower=0.0, upper=1.5),
+    **PHYSICS,
+)
+RACK = sliding("rack", "base", (0.0, -1.0, 0.0), 0.5)
+BASKET = sliding("basket", "rack", (0.0, 0.0, 1.0), 0.2)
 JOINTS = (DOOR, RACK, BASKET)
 RULES = (
     Precondition(joint="basket", requires="rack", at_least=0.3),

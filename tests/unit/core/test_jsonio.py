@@ -1,6 +1,5 @@
 """A file appears whole or not at all."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -78,4 +77,4 @@ def test_a_process_killed_while_filling_leaves_no_folder_and_the_next_one_succee
     assert not folder.exists()
     fill_folder_atomically(folder, lambda partial: (partial / "two").write_text("2") and None)
     assert sorted(p.name for p in folder.iterdir()) == ["two"]
-    assert os.listdir(tmp_path) == ["bundle"]
+    assert [path.name for path in tmp_path.iterdir()] == ["bundle"]

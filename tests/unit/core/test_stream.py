@@ -33,7 +33,10 @@ def test_joining_steps_is_another_address() -> None:
 
 def test_numbers_are_the_same_in_a_fresh_process_and_for_all_time() -> None:
     """The literal pins numpy's bit stream: a change here is a data change for every asset."""
-    code = "from artgen.core.stream import Stream; print(Stream(7, 'laptop', 3).generator().integers(0, 1000, 3).tolist())"
+    code = (
+        "from artgen.core.stream import Stream;"
+        "print(Stream(7, 'laptop', 3).generator().integers(0, 1000, 3).tolist())"
+    )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert told.stdout.strip() == str(
         Stream(7, "laptop", 3).generator().integers(0, 1000, 3).tolist()

@@ -31,7 +31,8 @@ def test_a_box_has_the_textbook_inertia_even_far_from_the_origin(size, density, 
 
 
 def test_the_plain_sum_about_the_origin_would_fail_far_away() -> None:
-    """Why the origin is shifted: at 1e4 m the unshifted integral loses most digits of the inertia."""
+    """Why the origin is shifted: at 1e4 m the unshifted integral loses most digits of the
+    inertia."""
     triangles = box((0.1, 0.1, 0.1), at=(1e4, 0, 0)).trimesh().triangles
     a, b, c = triangles.transpose(1, 0, 2)
     det = np.einsum("ij,ij->i", a, np.cross(b, c))

@@ -80,7 +80,8 @@ def test_a_chamfered_box_loses_twelve_prisms_and_counts_corners_once(cut: float)
 
 
 def test_wires_weigh_what_round_wire_weighs() -> None:
-    """The section's area equals the circle's, and mitres keep length along the axis: V = pi r^2 L."""
+    """The section's area equals the circle's, and mitres keep length along the axis: V = pi r^2
+    L."""
     path = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)]
     assert_allclose(wire(path, 0.01).volume, math.pi * 1e-4 * 3.0, rtol=1e-12)
     ring = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
