@@ -48,14 +48,15 @@ LEVELS: Iterable[Level[Subject]] = (
         checks=(inertia.densities, inertia.centers, inertia.integrals),
     ),
     Level(name="L3 compile", needs=("L0 manifest",), checks=(simulate.compiles,)),
-    Level(name="L3 model", needs=("L3 compile",), checks=(simulate.joints, simulate.masses)),
+    Level(name="L3 model", needs=("L3 compile",), checks=(simulate.joints, simulate.bodies)),
+    Level(name="L3 masses", needs=("L3 model",), checks=(simulate.masses,)),
     Level(name="L4 kinematics", needs=("L3 model",), checks=(simulate.kinematics,)),
     Level(
         name="L4 clearance",
         needs=("L4 kinematics", "L1 meshes"),
         checks=(simulate.collisions, simulate.exact_overlaps),
     ),
-    Level(name="L4 settle", needs=("L4 clearance",), checks=(simulate.settles,)),
+    Level(name="L4 settle", needs=("L4 clearance", "L3 masses"), checks=(simulate.settles,)),
     Level(
         name="L5 semantics",
         needs=("L1 meshes",),

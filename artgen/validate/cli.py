@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from time import perf_counter
 from typing import Annotated
 
 import tyro
@@ -13,9 +14,10 @@ from artgen.core.errors import UsageError
 from artgen.core.jsonio import write_json
 from artgen.export.layout import MANIFEST
 from artgen.validate import Report, validate_bundle
+from artgen.validate.files import REPORT
 
-PROGRESS_FROM = 20
-"""Bundles; at 0.1 s each, fewer are done within two seconds."""
+QUIET_S = 2.0
+"""Runs that are shorter show no progress bar."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,23 +31,26 @@ class Validate:
 
 
 def validate(argv: Sequence[str]) -> int:
-    """Print a verdict for each bundle; 0 all valid, 1 findings, 2 could not run (by UsageError)."""
+    """Check bundles from their files and print a verdict for each: 0 all valid, 1 findings."""
     command = tyro.cli(Validate, args=list(argv), prog="artgen validate")
     folders = list(bundle_folders(command.paths))
-    console = Console(highlight=False, soft_wrap=True)
     columns = (TextColumn("validating"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    failed = 0
-    with Progress(
-        *columns, console=console, transient=True, disable=len(folders) < PROGRESS_FROM
-    ) as progress:
-        for folder in progress.track(folders):
+    progress = Progress(*columns, console=Console(highlight=False, soft_wrap=True), transient=True)
+    task, began, failed = progress.add_task("validating", total=len(folders)), perf_counter(), 0
+    try:
+        for folder in folders:
             report = validate_bundle(folder)
             failed += not report.ok
             for line in told(folder, report):
-                console.print(line, markup=False)
+                progress.console.print(line, markup=False)
             if command.write:
-                write_json(folder / "report.json", report.as_json())
-    console.print(f"{len(folders) - failed} of {len(folders)} bundles are valid", markup=False)
+                write_json(folder / REPORT, report.as_json())
+            progress.advance(task)
+            if perf_counter() - began > QUIET_S:
+                progress.start()
+    finally:
+        progress.stop()
+    progress.console.print(f"{len(folders) - failed} of {len(folders)} bundles are valid")
     return 1 if failed else 0
 
 
@@ -53,8 +58,10 @@ def bundle_folders(paths: Sequence[Path]) -> Iterator[Path]:
     """Every bundle at or below the paths, in order.
 
     Raises:
-        UsageError: a path does not exist or holds no bundle.
+        UsageError: there is no path, or one does not exist or holds no bundle.
     """
+    if not paths:
+        raise UsageError("artgen validate needs a path, for example out/assets")
     for path in paths:
         if not path.is_dir():
             raise UsageError(

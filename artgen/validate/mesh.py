@@ -18,16 +18,15 @@ from artgen.validate.subject import Subject
 
 def readable(subject: Subject) -> Iterator[Finding]:
     """Every part's OBJ can be read: finite vertices, triangles that name existing ones."""
-    try:
-        subject.meshes  # noqa: B018  (reading is the test)
-    except (GeometryError, OSError) as error:
-        yield Finding(
-            check="mesh.readable",
-            part="meshes",
-            value=str(error),
-            bound="readable triangles",
-            message="MuJoCo refuses such a mesh too; export the asset anew",
-        )
+    for path, mesh in subject.mesh_files.items():
+        if isinstance(mesh, str):
+            yield Finding(
+                check="mesh.readable",
+                part=path,
+                value=mesh,
+                bound="readable triangles",
+                message="MuJoCo refuses such a mesh too; export the asset anew",
+            )
 
 
 def closed(subject: Subject) -> Iterator[Finding]:

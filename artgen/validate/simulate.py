@@ -1,6 +1,6 @@
 """L3 and L4: MuJoCo accepts the files and agrees with them; nothing interpenetrates; rest holds."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import mujoco
 import numpy as np
@@ -9,7 +9,7 @@ from artgen.articulation.kinematics import forward_kinematics, resolved
 from artgen.articulation.types import Joint, State
 from artgen.core.mesh import Floats
 from artgen.core.stream import Stream
-from artgen.export.bundle import Bundle
+from artgen.export.bundle import Bundle, BundlePart
 from artgen.export.layout import MJCF, URDF
 from artgen.validate import bounds
 from artgen.validate.physics import body_names, set_state
@@ -86,32 +86,41 @@ def _compile_finding(check: str, part: str, value: float | str, bound: str) -> F
     return Finding(check=check, part=part, value=value, bound=bound, message=message)
 
 
-def masses(subject: Subject) -> Iterator[Finding]:
-    """Compiled mass, centre and inertia of each body are those of the manifest."""
+def bodies(subject: Subject) -> Iterator[Finding]:
+    """Every part is a body of its own."""
     for file in (MJCF, URDF):
-        model = model_of(subject, file)
-        data = mujoco.MjData(model)
-        mujoco.mj_kinematics(model, data)
-        numbers = {name: i for i, name in enumerate(body_names(model))}
+        names = body_names(model_of(subject, file))
         for part in subject.bundle.parts:
-            if part.name not in numbers:
+            if part.name not in names:
                 yield _compile_finding("compile.body", f"{part.name} ({file})", "missing", "a body")
-                continue
-            body = numbers[part.name]
-            axes = data.ximat[body].reshape(3, 3)
-            tensor = axes @ np.diag(model.body_inertia[body]) @ axes.T
-            worst = {
-                "mass": abs(model.body_mass[body] - part.mass.mass) / part.mass.mass,
-                "center": np.abs(data.xipos[body] - part.mass.center).max(),
-                "inertia": np.abs(tensor - part.mass.inertia).max()
-                / np.abs(part.mass.inertia).max(),
-            }
-            for what, value in worst.items():
+
+
+def masses(subject: Subject) -> Iterator[Finding]:
+    """Compiled mass, center and inertia of each body are those of the manifest."""
+    for file in (MJCF, URDF):
+        data = mujoco.MjData(model_of(subject, file))
+        mujoco.mj_kinematics(model_of(subject, file), data)
+        for part in subject.bundle.parts:
+            for what, value in _mass_errors(model_of(subject, file), data, part).items():
                 if not value <= bounds.AGREEMENT.value:
+                    label = f"{part.name} ({file})"
                     expected = f"{what} of the manifest within {bounds.AGREEMENT.value:g}"
-                    yield _compile_finding(
-                        "compile.mass", f"{part.name} ({file})", float(value), expected
-                    )
+                    yield _compile_finding("compile.mass", label, value, expected)
+
+
+def _mass_errors(
+    model: mujoco.MjModel, data: mujoco.MjData, part: BundlePart
+) -> Mapping[str, float]:
+    """Relative errors of mass and tensor, and the center's in m, of one compiled body at rest."""
+    body = model.body(part.name).id
+    axes = data.ximat[body].reshape(3, 3)
+    tensor = (axes * model.body_inertia[body]) @ axes.T
+    largest = np.abs(part.mass.inertia).max()
+    return {
+        "mass": abs(float(model.body_mass[body]) / part.mass.mass - 1.0),
+        "center": float(np.abs(data.xipos[body] - part.mass.center).max()),
+        "inertia": float(np.abs(tensor - part.mass.inertia).max() / largest),
+    }
 
 
 def kinematics(subject: Subject) -> Iterator[Finding]:
@@ -122,7 +131,8 @@ def kinematics(subject: Subject) -> Iterator[Finding]:
     states = [{j.name: _random_q(j, rng) for j in free} for _ in range(RANDOM_POSES)]
     for file in (MJCF, URDF):
         model = model_of(subject, file)
-        errors = np.max([_pose_errors(bundle, model, state) for state in states], axis=0)
+        data = mujoco.MjData(model)
+        errors = np.max([_pose_errors(bundle, model, data, state) for state in states], axis=0)
         for part, error in zip(bundle.parts, errors.tolist(), strict=True):
             if not error <= bounds.KINEMATICS.value:
                 yield Finding(
@@ -140,9 +150,10 @@ def _random_q(joint: Joint, rng: np.random.Generator) -> float:
     return float(rng.uniform(lower, upper))
 
 
-def _pose_errors(bundle: Bundle, model: mujoco.MjModel, state: State) -> list[float]:
+def _pose_errors(
+    bundle: Bundle, model: mujoco.MjModel, data: mujoco.MjData, state: State
+) -> list[float]:
     """Largest difference of position (m) or rotation matrix of each part's link frame."""
-    data = mujoco.MjData(model)
     set_state(model, data, resolved(bundle.joints, state))
     ours = forward_kinematics(bundle.parts[0].name, bundle.joints, state)
     pivots = {joint.child: np.array(joint.origin) for joint in bundle.joints}
@@ -185,10 +196,13 @@ def collisions(subject: Subject) -> Iterator[Finding]:
 def contacts(
     model: mujoco.MjModel, data: mujoco.MjData, names: Sequence[str]
 ) -> Iterator[tuple[float, str, str]]:
-    """Depth (m, positive inside) and the two bodies of each present contact."""
-    for contact in data.contact:
-        first, second = (names[model.geom_bodyid[geom]] for geom in contact.geom)
-        yield -float(contact.dist), first, second
+    """Depth (m, positive inside) and the two bodies of each present contact, by name."""
+    if data.ncon == 0:
+        return
+    bodies = model.geom_bodyid[data.contact.geom]
+    for depth, (first, second) in zip(-data.contact.dist, bodies, strict=True):
+        one, other = sorted((names[first], names[second]))
+        yield float(depth), one, other
 
 
 def exact_overlaps(subject: Subject) -> Iterator[Finding]:
@@ -197,7 +211,8 @@ def exact_overlaps(subject: Subject) -> Iterator[Finding]:
     base = bundle.parts[0].name
     worst: dict[tuple[str, str], Crossing] = {}
     for crossing in crossings(base, bundle.joints, bundle.preconditions, subject.shapes):
-        pair = (crossing.overlap.first, crossing.overlap.second)
+        one, other = sorted((crossing.overlap.first, crossing.overlap.second))
+        pair = one, other
         if pair not in worst or crossing.overlap.volume > worst[pair].overlap.volume:
             worst[pair] = crossing
     for (first, second), crossing in sorted(worst.items()):

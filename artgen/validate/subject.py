@@ -10,6 +10,7 @@ from typing import Any
 
 import mujoco
 
+from artgen.core.errors import GeometryError
 from artgen.core.mesh import TriMesh
 from artgen.export.bundle import Bundle, read_bundle
 from artgen.export.layout import MANIFEST, MJCF, URDF
@@ -47,9 +48,21 @@ class Subject:
         return read_bundle(self.folder)
 
     @cached_property
+    def mesh_files(self) -> Mapping[str, TriMesh | str]:
+        """Path to the visual mesh there, or to what keeps it from being read."""
+        return {part.mesh: self._read(part.mesh) for part in self.bundle.parts}
+
+    def _read(self, path: str) -> TriMesh | str:
+        try:
+            return read_triangles(self.folder / path)
+        except (GeometryError, OSError) as error:
+            return str(error)
+
+    @cached_property
     def meshes(self) -> Mapping[str, TriMesh]:
         """Part name to its visual mesh, in the order of the manifest."""
-        return {part.name: read_triangles(self.folder / part.mesh) for part in self.bundle.parts}
+        read = {part.name: self.mesh_files[part.mesh] for part in self.bundle.parts}
+        return {name: mesh for name, mesh in read.items() if isinstance(mesh, TriMesh)}
 
     @cached_property
     def shapes(self) -> Mapping[str, Shape]:
