@@ -161,9 +161,10 @@ class Sample:
         part_id: (T, V, H, W) uint8 index into `meta.parts`, or LEFT_OUT, or BACKGROUND.
         depth: (T, V, H, W) float32, m along the camera's z axis; 0 is background, so that a masked
             loss never multiplies infinity by zero.
-        normal: (T, V, H, W, 3) float32, outward unit vectors in the world frame at the state shown;
-            zero is background. World normals do not depend on the camera, and one rotation by the
-            part's motion takes them to rest, the same one that rays need.
+        normal: (T, V, H, W, 3) float32, outward unit vectors in the world frame at the state shown,
+            smooth as shading is, without bumps; zero is background. World normals do not depend on
+            the camera, and one rotation by the part's motion takes them to rest, the same one that
+            rays need.
         part_rgba: (T, V, P, H, W, 4) uint8, as `rgba`.
         part_depth: (T, V, P, H, W) float32, as `depth`.
         part_normal: (T, V, P, H, W, 3) float32, as `normal`.

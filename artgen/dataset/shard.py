@@ -142,11 +142,16 @@ def read_manifest(path: Path) -> ShardManifest:
         )
     try:
         return ShardManifest(
-            **{key: facts[key] for key in facts if key not in ("ids", "samples")},
+            file=facts["file"],
+            bytes=facts["bytes"],
+            sha256=facts["sha256"],
+            index_sha256=facts["index_sha256"],
             ids=tuple(facts["ids"]),
+            ids_sha256=facts["ids_sha256"],
+            sources_sha256=facts["sources_sha256"],
         )
     except (KeyError, TypeError) as error:
-        raise ShardError(f"{place}: lacks or misspells a key ({error}); pack again") from error
+        raise ShardError(f"{place}: lacks or misspells {error}; pack again") from error
 
 
 def read_index(path: Path, manifest: ShardManifest) -> dict[str, tuple[Place, ...]]:
