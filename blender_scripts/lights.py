@@ -32,7 +32,6 @@ def _area(name: str, light: AreaLight) -> bpy.types.Object:
 
 
 def _world(sky: Sky) -> bpy.types.World:
-    """Radiance blended by the cosine to the vertical, in three steps."""
     world = bpy.data.worlds.new("sky")
     world.use_nodes = True
     # The sky is so smooth that sampling it by the surface's own lobe is enough; a map for
@@ -40,7 +39,15 @@ def _world(sky: Sky) -> bpy.types.World:
     world.cycles.sampling_method = "NONE"
     tree = world.node_tree
     background = next(node for node in tree.nodes if node.type == "BACKGROUND")
-    place = tree.nodes.new("ShaderNodeTexCoord")
+    direction = tree.nodes.new("ShaderNodeTexCoord").outputs["Generated"]
+    tree.links.new(sky_color(tree, direction, sky), background.inputs["Color"])
+    return world
+
+
+def sky_color(
+    tree: bpy.types.NodeTree, direction: bpy.types.NodeSocket, sky: Sky
+) -> bpy.types.NodeSocket:
+    """Radiance of the sky in a direction, blended by its height in three steps."""
     split = tree.nodes.new("ShaderNodeSeparateXYZ")
     height = tree.nodes.new("ShaderNodeMapRange")
     height.inputs["From Min"].default_value = -1.0
@@ -49,8 +56,7 @@ def _world(sky: Sky) -> bpy.types.World:
     ramp.color_ramp.elements[0].color = (*sky.nadir, 1.0)
     ramp.color_ramp.elements[1].color = (*sky.zenith, 1.0)
     ramp.color_ramp.elements.new(0.5).color = (*sky.horizon, 1.0)
-    tree.links.new(place.outputs["Generated"], split.inputs[0])
+    tree.links.new(direction, split.inputs[0])
     tree.links.new(split.outputs["Z"], height.inputs["Value"])
     tree.links.new(height.outputs["Result"], ramp.inputs["Fac"])
-    tree.links.new(ramp.outputs["Color"], background.inputs["Color"])
-    return world
+    return ramp.outputs["Color"]

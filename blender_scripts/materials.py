@@ -5,7 +5,8 @@ from pathlib import Path
 import bpy
 
 from artgen.finish_jobs import GltfSurface
-from artgen.render_job import ThinGlass
+from artgen.render_job import Sky, ThinGlass
+from blender_scripts.lights import sky_color
 from blender_scripts.meshes import UV
 
 
@@ -55,27 +56,49 @@ def _image(tree: bpy.types.NodeTree, path: str, space: str) -> bpy.types.ShaderN
     return node
 
 
-def make_thin_glass(pane: ThinGlass) -> None:
-    """Rebuild an imported material as a pane that mirrors by Fresnel's law and else lets light pass
-    straight; refraction in a flat pane only shifts the view by a fraction of its thickness."""
-    tree = bpy.data.materials[pane.surface].node_tree
+def make_thin_glass(pane: ThinGlass, sky: Sky) -> None:
+    """Rebuild an imported material as a pane: light passes straight, the sky is mirrored by
+    Fresnel's law.
+
+    A mirror closure beside a transparent one makes Cycles toss a coin at every hit, and the coin's
+    noise stays in alpha, which no denoiser cleans. Mirrored light as emission needs no coin; it
+    leaves out reflections of the object itself. Refraction in a flat pane only shifts the view by a
+    fraction of its thickness.
+    """
+    material = bpy.data.materials[pane.surface]
+    material.cycles.emission_sampling = "NONE"
+    tree = material.node_tree
     tree.nodes.clear()
+    mirrored = _fresnel(tree, pane.ior)
+    passed = tree.nodes.new("ShaderNodeMix")
+    passed.data_type = "RGBA"
+    passed.inputs["A"].default_value = (*pane.tint, 1.0)
+    passed.inputs["B"].default_value = (0.0, 0.0, 0.0, 1.0)
     clear = tree.nodes.new("ShaderNodeBsdfTransparent")
-    clear.inputs["Color"].default_value = (*pane.tint, 1.0)
-    mirror = tree.nodes.new("ShaderNodeBsdfAnisotropic")
-    mirror.inputs["Roughness"].default_value = pane.roughness
-    # Cycles inverts the index on back faces, where straight rays would then reflect totally; the
-    # inverse of the inverse keeps both faces alike.
+    glow = tree.nodes.new("ShaderNodeEmission")
+    both = tree.nodes.new("ShaderNodeAddShader")
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    direction = tree.nodes.new("ShaderNodeTexCoord").outputs["Reflection"]
+    tree.links.new(mirrored, passed.inputs["Factor"])
+    tree.links.new(passed.outputs["Result"], clear.inputs["Color"])
+    tree.links.new(sky_color(tree, direction, sky), glow.inputs["Color"])
+    tree.links.new(mirrored, glow.inputs["Strength"])
+    tree.links.new(clear.outputs["BSDF"], both.inputs[0])
+    tree.links.new(glow.outputs["Emission"], both.inputs[1])
+    tree.links.new(both.outputs["Shader"], output.inputs["Surface"])
+
+
+def _fresnel(tree: bpy.types.NodeTree, ior: float) -> bpy.types.NodeSocket:
+    """The mirrored share on either face.
+
+    Cycles inverts the index on back faces, where straight rays would then reflect totally; the
+    inverse of the inverse keeps both faces alike.
+    """
     side = tree.nodes.new("ShaderNodeNewGeometry")
     index = tree.nodes.new("ShaderNodeMix")
     index.data_type = "FLOAT"
-    index.inputs["A"].default_value, index.inputs["B"].default_value = pane.ior, 1.0 / pane.ior
+    index.inputs["A"].default_value, index.inputs["B"].default_value = ior, 1.0 / ior
     fresnel = tree.nodes.new("ShaderNodeFresnel")
-    mixed = tree.nodes.new("ShaderNodeMixShader")
-    output = tree.nodes.new("ShaderNodeOutputMaterial")
     tree.links.new(side.outputs["Backfacing"], index.inputs["Factor"])
     tree.links.new(index.outputs["Result"], fresnel.inputs["IOR"])
-    tree.links.new(fresnel.outputs["Fac"], mixed.inputs["Fac"])
-    tree.links.new(clear.outputs["BSDF"], mixed.inputs[1])
-    tree.links.new(mirror.outputs["BSDF"], mixed.inputs[2])
-    tree.links.new(mixed.outputs["Shader"], output.inputs["Surface"])
+    return fresnel.outputs["Fac"]

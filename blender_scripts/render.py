@@ -23,7 +23,7 @@ def run(job: Mapping[str, Any], threads: int) -> dict[str, Any]:
     parts = _import_parts(task.glb)
     rest = {name: node.matrix_world.copy() for name, node in parts.items()}
     for pane in task.transport.panes:
-        make_thin_glass(pane)
+        make_thin_glass(pane, task.rig.sky)
     add_rig(scene, task.rig)
     cameras = [add_camera(f"camera_{k}", camera) for k, camera in enumerate(task.cameras)]
     _configure(scene, task, threads)
