@@ -1,0 +1,127 @@
+"""Clearance: the box filter never hides what exact booleans would find."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from artgen.core.mesh import Floats, TriMesh
+from artgen.core.rotation import axis_angle_matrix
+from artgen.core.transform import rigid
+from artgen.geometry.clearance import (
+    NEGLIGIBLE,
+    Mover,
+    Overlap,
+    Shape,
+    overlaps,
+    shape_of_mesh,
+    shape_of_solids,
+)
+from artgen.geometry.solid import Solid, slab, tube
+from tests.strategies import axes, mesh_of
+
+Triple = tuple[float, float, float]
+REST: Floats = np.eye(4)[None]
+CUBE = slab((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
+
+
+def mover(name: str, *solids: Solid, poses: Floats = REST, group: int | None = None) -> Mover:
+    """A mover whose group is its name, unless told."""
+    number = sum(map(ord, name)) if group is None else group
+    return Mover(name=name, shape=shape_of_solids(solids), poses=poses, group=number)
+
+
+def shifts(*offsets: tuple[float, float, float]) -> Floats:
+    """(K, 4, 4) translations."""
+    return np.array([rigid(np.eye(3), offset) for offset in offsets])
+
+
+sides = st.floats(0.01, 0.2)
+places = st.floats(-0.2, 0.2)
+corners = st.tuples(places, places, places)
+sizes = st.tuples(sides, sides, sides)
+
+
+@settings(deadline=None)
+@given(low_a=corners, size_a=sizes, low_b=corners, size_b=sizes)
+def test_boxes_share_the_product_of_their_common_sides(
+    low_a: Triple, size_a: Triple, low_b: Triple, size_b: Triple
+) -> None:
+    """A sum of some 30 tetrahedra of at most 8e-3 m3, each off by an ulp: 1e-16; we allow 1e-15."""
+    a, b = np.array([low_a, np.add(low_a, size_a)]), np.array([low_b, np.add(low_b, size_b)])
+    common = (np.minimum(a[1], b[1]) - np.maximum(a[0], b[0])).clip(min=0.0).prod()
+    found = list(overlaps([mover("a", slab(*a)), mover("b", slab(*b))]))
+    if common > NEGLIGIBLE:
+        (overlap,) = found
+        assert overlap.volume == pytest.approx(common, abs=1e-15, rel=1e-9)
+    else:
+        assert found == []
+
+
+@settings(deadline=None, max_examples=60)
+@given(axis=axes(), angle=st.floats(-3.0, 3.0), place=corners, thickness=st.floats(0.002, 0.05))
+def test_the_filter_drops_no_overlap(
+    axis: Triple, angle: float, place: Triple, thickness: float
+) -> None:
+    """Turned boards and a pipe against a block: the same volume as a boolean of everything."""
+    boards = [slab((0.0, 0.0, k * 0.08), (0.2, 0.15, k * 0.08 + thickness)) for k in range(2)]
+    parts = [*boards, tube(0.1, 0.09, 0.2, axis="x").at(0.0, -0.2, 0.0)]
+    pose = rigid(axis_angle_matrix(axis, angle), place)
+    expected = sum((part.transformed(pose) & CUBE).volume for part in parts)
+    found = list(overlaps([mover("turned", *parts, poses=pose[None]), mover("block", CUBE)]))
+    volume = sum(overlap.volume for overlap in found)
+    # Transforming by the relative pose rounds once more: 1e-16 m over faces of 0.05 m2 at most.
+    assert volume == pytest.approx(expected, abs=3 * NEGLIGIBLE)
+
+
+def test_touching_boxes_do_not_overlap() -> None:
+    assert list(overlaps([mover("a", CUBE), mover("b", CUBE.at(0.1))])) == []
+
+
+def test_each_pose_is_told() -> None:
+    path = shifts((0.3, 0.0, 0.0), (0.06, 0.0, 0.0), (0.02, 0.0, 0.0))
+    still = np.repeat(REST, 3, axis=0)
+    found = list(overlaps([mover("a", CUBE, poses=path), mover("b", CUBE, poses=still)]))
+    assert [(o.pose, o.first, o.second) for o in found] == [(1, "a", "b"), (2, "a", "b")]
+    assert [o.volume for o in found] == pytest.approx([0.04 * 0.01, 0.08 * 0.01], rel=1e-12)
+
+
+def test_one_group_is_not_tested_against_itself() -> None:
+    pair = [mover("a", CUBE, group=0), mover("b", CUBE, group=0)]
+    assert list(overlaps(pair)) == []
+
+
+def test_a_body_inside_another_overlaps_with_its_whole_volume() -> None:
+    small = slab((0.04, 0.04, 0.04), (0.06, 0.06, 0.06))
+    (found,) = overlaps([mover("a", CUBE), mover("b", small)])
+    assert found == Overlap(pose=0, first="a", second="b", volume=pytest.approx(8e-6, rel=1e-12))
+
+
+def test_a_mesh_gives_one_body_a_number() -> None:
+    boards = (((0.0, 0.0, 0.0), (0.1, 0.1, 0.1)), ((0.1, 0.0, 0.0), (0.2, 0.1, 0.1)))
+    shape = shape_of_mesh(mesh_of(boards))
+    assert [body.status().name for body in shape.bodies] == ["NoError", "NoError"]
+    assert [body.volume() for body in shape.bodies] == pytest.approx([1e-3, 1e-3], rel=1e-12)
+    np.testing.assert_array_equal(shape.rest, boards)
+
+
+def test_an_open_body_keeps_its_place_with_a_status() -> None:
+    whole = mesh_of((((0.0, 0.0, 0.0), (0.1, 0.1, 0.1)), ((0.1, 0.0, 0.0), (0.2, 0.1, 0.1))))
+    holed = TriMesh(vertices=whole.vertices, faces=whole.faces[1:], body=whole.body[1:])  # type: ignore[index]
+    assert [body.status().name for body in shape_of_mesh(holed).bodies] == [
+        "NotManifold",
+        "NoError",
+    ]
+
+
+@settings(deadline=None, max_examples=30)
+@given(axis=axes(), angle=st.floats(-3.0, 3.0), place=corners)
+def test_boxes_of_moved_bodies_are_those_of_their_moved_vertices(
+    axis: Triple, angle: float, place: Triple
+) -> None:
+    pose = rigid(axis_angle_matrix(axis, angle), place)
+    shape: Shape = shape_of_solids([CUBE, CUBE.at(0.5, 0.2, 0.1)])
+    moved = [CUBE.transformed(pose), CUBE.at(0.5, 0.2, 0.1).transformed(pose)]
+    expected = np.array([solid.bounds for solid in moved])
+    # Four roundings of numbers below 1 m.
+    np.testing.assert_allclose(shape.boxes(pose[None])[0], expected, rtol=0, atol=1e-15)
