@@ -24,7 +24,8 @@ BACKGROUND = 255
 """Part id of a pixel whose centre no part covers."""
 LEFT_OUT = 254
 """Part id of a pixel that shows a part of `SampleMeta.parts_left_out`."""
-MAX_PARTS = 254
+MAX_PARTS = 127
+"""Part ids have 8 bits, but the parents of `Targets` have a sign."""
 
 _IMAGES: Mapping[str, tuple[str, str]] = {
     "rgba": ("TVHW4", "uint8"),
@@ -94,8 +95,8 @@ class SampleMeta:
             )
         if not 1 <= len(self.parts) <= MAX_PARTS:
             raise ShardError(
-                f"{self.asset_id}: {len(self.parts)} parts, expected 1 to {MAX_PARTS}; part ids "
-                "are 8-bit"
+                f"{self.asset_id}: {len(self.parts)} parts, expected 1 to {MAX_PARTS}; merge "
+                "parts that never move apart"
             )
 
 

@@ -84,6 +84,12 @@ def test_an_asset_id_that_cannot_name_members_is_refused(asset_id):
         replace(made_meta("laptop_000000", 2), asset_id=asset_id)
 
 
+@pytest.mark.parametrize("parts", [0, 128])
+def test_a_count_of_parts_that_ids_cannot_tell_apart_is_refused(parts):
+    with pytest.raises(ShardError, match=f"{parts} parts, expected 1 to 127"):
+        made_meta("laptop_000000", parts)
+
+
 def _color_under_alpha(sample):
     rgba = np.array(sample.part_rgba)
     rgba[..., 3] = 0
