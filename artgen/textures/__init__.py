@@ -4,8 +4,12 @@ from collections.abc import Callable, Mapping
 
 from artgen.core.errors import UsageError
 from artgen.core.surface import SurfaceSpec
+from artgen.textures.coat import enamel, paint
+from artgen.textures.grain import plastic, rubber
 from artgen.textures.images import TextureSet
+from artgen.textures.metal import anodized, brushed
 from artgen.textures.plain import plain
+from artgen.textures.wood import wood
 
 __all__ = ["RECIPES", "VERSION", "TextureSet", "texture_set"]
 
@@ -13,7 +17,14 @@ VERSION = 1
 """Raised when a recipe gives other images for the same spec."""
 
 RECIPES: Mapping[str, Callable[[SurfaceSpec], TextureSet]] = {
+    "anodized": anodized,
+    "brushed": brushed,
+    "enamel": enamel,
+    "paint": paint,
     "plain": plain,
+    "plastic": plastic,
+    "rubber": rubber,
+    "wood": wood,
 }
 
 
