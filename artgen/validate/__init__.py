@@ -61,7 +61,6 @@ LEVELS: Iterable[Level[Subject]] = (
         name="L5 semantics",
         needs=("L1 meshes",),
         checks=(
-            semantics.base_first,
             semantics.order,
             semantics.ground,
             semantics.bands,

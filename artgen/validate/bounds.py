@@ -56,7 +56,6 @@ KINEMATICS = Bound(
 )
 CONTACT = Bound(1e-4, "m", "float32 hulls shift by 6e-9 m; 0.1 mm is the least visible overlap")
 OVERLAP = Bound(1e-9, "m3", "1 mm3: a 0.1 mm overlap along a 10 mm edge of 1 mm")
-SETTLE_SPEED = Bound(1.0, "rad/s or m/s", "nothing that was put to rest moves so fast")
 SETTLE_FACTOR = Bound(
     2.0, "", "margin on the derived creep and sag, whose impedance is taken where it is softest"
 )

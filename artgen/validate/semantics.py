@@ -1,4 +1,4 @@
-"""L5: the object is what its category says: base first, in order, closed at rest, of real size."""
+"""L5: the object is what its category says: parts in order, closed at rest, of real size."""
 
 from collections.abc import Iterator, Mapping
 
@@ -17,22 +17,6 @@ from artgen.validate.sweep import Sweep, sweep_poses
 
 PUSHES = (0.01, 0.02, 0.04, 0.08, 0.15)
 """Shares of its range by which a joint is pushed beyond its closed stop."""
-
-
-def base_first(subject: Subject) -> Iterator[Finding]:
-    """The part that no joint moves is listed first, and parents before children."""
-    bundle = subject.bundle
-    moved = {joint.child for joint in bundle.joints}
-    first = bundle.parts[0].name
-    if first in moved:
-        yield _order_finding("semantics.base", first, "a moving part", "the base")
-    placed = {first}
-    for joint in bundle.joints:
-        if joint.parent not in placed:
-            yield _order_finding(
-                "semantics.order", joint.name, "before its parent's", "parents first"
-            )
-        placed.add(joint.child)
 
 
 def order(subject: Subject) -> Iterator[Finding]:

@@ -140,6 +140,16 @@ SIGNED: dict[str, tuple[str, str, Edit]] = {
         "hinge",
         in_urdf("joint[@name='hinge']/limit", "upper", "1.92"),
     ),
+    "pivot not a number": (
+        "structure.origin",
+        "hinge",
+        in_urdf("joint[@name='hinge']/origin", "xyz", "nan 0 0"),
+    ),
+    "base not first": (
+        "structure.manifest",
+        MANIFEST,
+        lambda folder: edit_manifest(folder, lambda m: m["parts"].reverse()),
+    ),
     "precondition on nothing": (
         "structure.manifest",
         MANIFEST,
@@ -207,6 +217,11 @@ SIGNED: dict[str, tuple[str, str, Edit]] = {
         "base",
         obj_lines("base", first_line("v", lambda _: "v -0.31 -0.18 0.0")),
     ),
+    "triangles without area": (
+        "mesh.triangle",
+        "base",
+        obj_lines("base", first_line("v", lambda _: "v -0.3 -0.18 0.7")),
+    ),
     "atlas outside the square": (
         "mesh.atlas",
         "door",
@@ -237,6 +252,11 @@ SIGNED: dict[str, tuple[str, str, Edit]] = {
         in_mjcf(".//joint[@name='slide']", "name", "glide"),
     ),
     "mjcf ball joint": ("compile.dof", MJCF, in_mjcf(".//joint[@name='slide']", "type", "ball")),
+    "mjcf body renamed": (
+        "compile.body",
+        "door",
+        in_mjcf(".//body[@name='door']", "name", "flap"),
+    ),
     "mjcf mass": ("compile.mass", "door", in_mjcf(".//body[@name='door']/inertial", "mass", "3.0")),
     "mjcf center of mass at the origin": (
         "compile.mass",

@@ -1,0 +1,126 @@
+"""Reports: levels that cannot run say so, findings survive JSON, the command prints and exits."""
+
+import json
+import re
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from artgen.core.errors import UsageError
+from artgen.core.jsonio import canonical_json
+from artgen.validate import bounds, validate_bundle
+from artgen.validate.cli import validate
+from artgen.validate.report import Finding, Level, Skipped, run_levels
+from tests.unit.validate.cabinet import ASSET, cupboard, write_quick_bundle
+from tests.unit.validate.test_file_defects import SIGNED, UNSIGNED
+from tests.unit.validate.test_object_defects import DEFECTS
+
+ROOT = Path(__file__).parents[3]
+
+
+def finding(check: str) -> Finding:
+    return Finding(check=check, part="lid", value=2.0, bound="<= 1 m", message="too long")
+
+
+def bad(subject: str) -> Iterator[Finding]:
+    yield finding(f"{subject}.bad")
+
+
+def good(subject: str) -> Iterator[Finding | Skipped]:
+    yield Skipped(name=f"{subject}.good", reason="no rule")
+
+
+def test_a_level_runs_only_on_what_it_needs() -> None:
+    levels = (
+        Level(name="a", needs=(), checks=(bad, good, bad)),
+        Level(name="b", needs=("a",), checks=(bad,)),
+        Level(name="c", needs=("b",), checks=(bad,)),
+        Level(name="d", needs=(), checks=(good,)),
+    )
+    report = run_levels("x", "s", levels)
+    assert [f.check for f in report.findings] == ["s.bad", "s.bad"]
+    assert [s.name for s in report.skipped] == ["s.good", "b", "c", "s.good"]
+    assert "relies on a" in report.skipped[1].reason
+    assert not report.ok
+
+
+def test_notes_alone_leave_a_report_valid() -> None:
+    assert run_levels("x", "s", (Level(name="d", needs=(), checks=(good,)),)).ok
+
+
+def test_a_finding_of_nan_can_be_written() -> None:
+    report = run_levels("x", "s", (Level(name="a", needs=(), checks=(nan,)),))
+    assert json.loads(canonical_json(report.as_json()))["findings"][0]["value"] == "nan"
+
+
+def nan(subject: str) -> Iterator[Finding]:
+    yield Finding(check="c", part="p", value=float("nan"), bound="b", message="m")
+
+
+def test_a_finding_reads_as_one_line() -> None:
+    assert str(finding("mesh.size")) == "mesh.size: lid: 2 (expected <= 1 m); too long"
+
+
+@pytest.fixture(scope="module")
+def bundles(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a sound and a spoilt bundle."""
+    root = tmp_path_factory.mktemp("bundles")
+    write_quick_bundle(cupboard(), root / "cupboard" / "000004")
+    shutil.copytree(root / "cupboard" / "000004", root / "cupboard" / "000005")
+    (root / "cupboard" / "000005" / "asset.glb").unlink()
+    return root
+
+
+def test_the_command_names_every_bundle_and_exits_1(
+    bundles: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert validate([str(bundles)]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split()[:2] == ["valid", ASSET]
+    assert "files.file: asset.glb: missing" in "\n".join(lines)
+    assert lines[-1] == "1 of 2 bundles are valid"
+
+
+def test_reports_are_written_on_request_only(bundles: Path) -> None:
+    sound = bundles / "cupboard" / "000004"
+    assert validate([str(sound)]) == 0
+    assert not (sound / "report.json").exists()
+    assert validate([str(sound), "--write"]) == 0
+    assert json.loads((sound / "report.json").read_text())["ok"] is True
+    assert validate_bundle(sound).ok  # a report does not spoil its bundle.
+
+
+def test_a_path_without_bundles_is_a_usage_error(tmp_path: Path) -> None:
+    for argv in ([str(tmp_path)], [str(tmp_path / "nowhere")], []):
+        with pytest.raises(UsageError):
+            validate(argv)
+
+
+def test_equal_bundles_give_equal_reports(bundles: Path) -> None:
+    spoilt = bundles / "cupboard" / "000005"
+    one, two = (canonical_json(validate_bundle(spoilt).as_json()) for _ in range(2))
+    assert one == two
+    assert str(bundles) not in one  # no path of this machine.
+
+
+def test_the_document_shows_every_bound_with_its_value_and_reason() -> None:
+    text = (ROOT / "docs" / "validation.md").read_text()
+    for name, bound in vars(bounds).items():
+        if isinstance(bound, bounds.Bound):
+            unit = f" {bound.unit}" if bound.unit else ""
+            row = f"| `{name}` | {bound.value:g}{unit} | {bound.reason} |"
+            assert row in text, f"docs/validation.md lacks the row\n{row}"
+
+
+def test_every_check_is_documented_and_has_a_planted_defect() -> None:
+    """Names are read from the sources; those made from a field's name are written out here."""
+    sources = "".join(path.read_text() for path in (ROOT / "artgen" / "validate").glob("*.py"))
+    levels = "files|structure|mesh|inertia|compile|motion|semantics"
+    names = set(re.findall(rf'"((?:{levels})\.[a-z]+)"', sources)) - {"semantics.band"}
+    names |= {f"structure.{name}" for name in ("effort", "velocity", "friction", "damping")}
+    planted = {check for table in (SIGNED, UNSIGNED, DEFECTS) for check, _, _ in table.values()}
+    assert names - planted == set()
+    text = (ROOT / "docs" / "validation.md").read_text()
+    assert {name for name in names if f"`{name}`" not in text} == set()
