@@ -4,7 +4,6 @@ the help.
 
 import csv
 import io
-import logging
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -21,7 +20,7 @@ from artgen.export import Bundle, read_bundle
 from artgen.pipeline import AssetTask, Outcome, check_kept, plan, run_tasks
 from artgen.progress import progress
 from artgen.rules import load_rule, rule_names
-from artgen.run_folder import RunFolder, opened
+from artgen.run_folder import RunFolder, opened, run_log
 
 BYTES_PER_ASSET = 5_000_000
 """A bundle stays under 3 MB; its sample and its share of the shards add about 1 MB."""
@@ -96,19 +95,6 @@ def build_assets(folder: RunFolder, tasks: Sequence[AssetTask], *, workers: int)
             outcomes.append(outcome)
             advance(f"{outcome.asset_id} {outcome.status}")
     return outcomes
-
-
-def run_log(folder: RunFolder) -> logging.Logger:
-    """The logger that appends to logs/run.log."""
-    folder.logs.mkdir(parents=True, exist_ok=True)
-    record = logging.getLogger(f"artgen.run.{folder.root.resolve()}")
-    record.setLevel(logging.INFO)
-    record.propagate = False
-    if not record.handlers:
-        handler = logging.FileHandler(folder.logs / "run.log", encoding="utf-8")
-        handler.setFormatter(logging.Formatter("%(asctime)s %(message)s"))
-        record.addHandler(handler)
-    return record
 
 
 def render_and_pack(command: Generate) -> int:

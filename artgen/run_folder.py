@@ -1,6 +1,7 @@
 """The output folder of a run: whose it is, what lies where, and the lock that admits one run."""
 
 import json
+import logging
 import os
 import shutil
 from collections.abc import Iterator
@@ -104,6 +105,19 @@ def locked(root: Path) -> Iterator[None]:
         raise UsageError(
             f"{root}: another artgen run is writing here; wait for it or choose another --out"
         ) from error
+
+
+def run_log(folder: RunFolder) -> logging.Logger:
+    """The logger that appends to logs/run.log."""
+    folder.logs.mkdir(parents=True, exist_ok=True)
+    record = logging.getLogger(f"artgen.run.{folder.root.resolve()}")
+    record.setLevel(logging.INFO)
+    record.propagate = False
+    if not record.handlers:
+        handler = logging.FileHandler(folder.logs / "run.log", encoding="utf-8")
+        handler.setFormatter(logging.Formatter("%(asctime)s %(message)s"))
+        record.addHandler(handler)
+    return record
 
 
 def _make_writable(root: Path) -> None:

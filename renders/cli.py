@@ -9,10 +9,9 @@ from typing import Annotated
 
 import tyro
 
-from artgen.commands import run_log
 from artgen.core.errors import UsageError
 from artgen.progress import progress
-from artgen.run_folder import RunFolder, locked
+from artgen.run_folder import RunFolder, locked, run_log
 from renders.contact_sheet import write_contact_sheet
 from renders.plan import Settings
 from renders.run import Rendered, RenderTask, is_staged, planned_tasks, run_tasks
