@@ -51,7 +51,7 @@ def test_quaternion_and_matrix_are_inverse(axis: Vector, angle: float) -> None:
 @given(st.sampled_from(np.eye(3).tolist()), axes())
 @settings(deadline=None)
 def test_the_rotation_takes_start_to_end(start: Vector, end: Vector) -> None:
-    """Half turns are exact, the rest divides by 1 + cos >= 1: a few eps. The textbook form fails for
-    `end` 1e-7 from opposite, where 1 + cos keeps one digit."""
+    """Half turns are exact, the rest divides by 1 + cos >= 1: a few eps. The textbook form fails
+    for `end` 1e-7 from opposite, where 1 + cos keeps one digit."""
     turned = matrix_from_quaternion(rotation_between(np.array(start), np.array(end))) @ start
     assert_allclose(turned, end, rtol=0, atol=10 * EPS)
