@@ -6,6 +6,7 @@ from pathlib import Path
 from artgen.export import glb, mjcf, urdf, usd_joints
 from artgen.export.bundle import Bundle, BundlePart, read_bundle
 from artgen.export.kinematics import FileKinematics
+from artgen.export.write import add_thumbnail, write_bundle
 
 READERS: Mapping[str, Callable[[Path], FileKinematics]] = {
     "glb": glb.load_kinematics,
@@ -15,4 +16,12 @@ READERS: Mapping[str, Callable[[Path], FileKinematics]] = {
 }
 """Format to the function that reads parts and joints back from a bundle's folder."""
 
-__all__ = ["READERS", "Bundle", "BundlePart", "FileKinematics", "read_bundle"]
+__all__ = [
+    "READERS",
+    "Bundle",
+    "BundlePart",
+    "FileKinematics",
+    "add_thumbnail",
+    "read_bundle",
+    "write_bundle",
+]

@@ -15,6 +15,8 @@ MJCF = "asset.xml"
 USD = "asset.usdc"
 MANIFEST = "manifest.json"
 THUMBNAIL = "thumbnail.png"
+REPORT = "report.json"
+"""Verdict of the validation, written later than the manifest and not listed in it."""
 TEXTURES = "textures"
 
 

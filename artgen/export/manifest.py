@@ -11,7 +11,7 @@ from artgen.articulation.targets import swept_sphere
 from artgen.articulation.types import ArticulatedObject, Part
 from artgen.core.jsonio import file_hash, plain
 from artgen.export.kinematics import as_file_joint
-from artgen.export.layout import MANIFEST, BoxPiece, collision_pieces, mesh_path
+from artgen.export.layout import MANIFEST, REPORT, BoxPiece, collision_pieces, mesh_path
 from artgen.geometry.measure import total_volume
 
 SCHEMA = "artgen-bundle/1"
@@ -84,13 +84,13 @@ def part_entry(obj: ArticulatedObject, part: Part) -> dict[str, Any]:
 
 
 def file_entries(folder: Path) -> dict[str, Mapping[str, Any]]:
-    """Relative path to hash and size, for every file but the manifest."""
+    """Relative path to hash and size, for every file but the manifest and the report."""
     paths = sorted(path for path in folder.rglob("*") if path.is_file())
     named = {path.relative_to(folder).as_posix(): path for path in paths}
-    named.pop(MANIFEST, None)
     return {
         name: {"sha256": file_hash(path), "bytes": path.stat().st_size}
         for name, path in named.items()
+        if name not in (MANIFEST, REPORT)
     }
 
 
