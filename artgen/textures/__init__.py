@@ -9,6 +9,7 @@ from artgen.textures.grain import plastic, rubber
 from artgen.textures.images import TextureSet
 from artgen.textures.metal import anodized, brushed
 from artgen.textures.plain import plain
+from artgen.textures.screen import screen
 from artgen.textures.wood import wood
 
 __all__ = ["RECIPES", "VERSION", "TextureSet", "texture_set"]
@@ -24,6 +25,7 @@ RECIPES: Mapping[str, Callable[[SurfaceSpec], TextureSet]] = {
     "plain": plain,
     "plastic": plastic,
     "rubber": rubber,
+    "screen": screen,
     "wood": wood,
 }
 

@@ -99,6 +99,13 @@ class Sheet:
             width=self._stroke(width),
         )
 
+    def picture(self, lower: Point, upper: Point, image: Image) -> None:
+        """An (H, W, 3) image stretched between two corners."""
+        (left, bottom), (right, top) = self._pixel(lower), self._pixel(upper)
+        extent = max(1, round(right) - round(left)), max(1, round(bottom) - round(top))
+        placed = Pillow.fromarray(image).resize(extent, Pillow.Resampling.BICUBIC)
+        self._picture.paste(placed, (round(left), round(top)))
+
     def disc(
         self,
         center: Point,
