@@ -12,13 +12,15 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 from pxr import Usd, UsdValidation
 
 from artgen.articulation.states import travel
 from artgen.articulation.types import ArticulatedObject
-from artgen.export import READERS, layout
+from artgen.export import READERS, layout, read_bundle, write_bundle
 from artgen.export.kinematics import FileKinematics, stated
+from artgen.textures.library import TextureLibrary
+from artgen.worker import BlenderWorker
 from tests import exported
 from tests.strategies import READY, objects, states
 
@@ -262,3 +264,91 @@ def test_loading_warns_of_nothing(
         mujoco.mj_step(model, data, 10)
         assert not any(warning.number for warning in data.warning)
     assert capfd.readouterr().err == ""
+
+
+# ---------------------------------------------------------------------------------- whole bundles
+
+
+@pytest.fixture(scope="module")
+def bundles(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Every ready-made object as a bundle, GLB by Blender included."""
+    root = tmp_path_factory.mktemp("bundles")
+    library = TextureLibrary(root / "library")
+    folders = {name: root / name for name in READY}
+    with BlenderWorker(root / "blender.log") as worker:
+        for name, folder in folders.items():
+            folder.mkdir()
+            write_bundle(READY[name](), folder, library=library, worker=worker, thumbnail=b"png")
+    return folders
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("name", sorted(READY))
+def test_glb_states_the_same_kinematics_and_masses(bundles: dict[str, Path], name: str) -> None:
+    """Extras keep float64; the axes swap and change sign exactly, and origins add up as in URDF."""
+    obj = READY[name]()
+    found = READERS["glb"](bundles[name])
+    assert_same_kinematics(found, obj, rtol=8 * 2.0**-53)
+    for part in obj.parts:
+        mass = found.masses[part.name]
+        assert mass is not None
+        assert mass.mass == part.mass.mass
+        assert_allclose(mass.inertia, part.mass.inertia, rtol=0, atol=0)
+        assert_allclose(mass.center, part.mass.center, rtol=0, atol=1e-15)
+    ours = {joint.name: joint for joint in stated(obj).joints}
+    for joint in found.joints:
+        for field in ("friction", "damping", "effort", "velocity", "spring", "mimic"):
+            assert getattr(joint, field) == getattr(ours[joint.name], field)
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("name", sorted(READY))
+def test_glb_meshes_fill_the_same_boxes(bundles: dict[str, Path], name: str) -> None:
+    """As for the other formats: float32 vertices within 1 m, moved by exact joints."""
+    obj = READY[name]()
+    for state in poses_in_time(obj):
+        boxes = exported.glb_boxes(obj, bundles[name], state)
+        for part, box in exported.our_boxes(obj, state).items():
+            assert_allclose(boxes[part], box, rtol=0, atol=1e-6, err_msg=part)
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("name", sorted(READY))
+def test_bundle_reads_back_typed(bundles: dict[str, Path], name: str) -> None:
+    obj = READY[name]()
+    bundle = read_bundle(bundles[name])
+    assert (bundle.asset_id, bundle.category) == (obj.asset_id, obj.category)
+    assert (bundle.joints, bundle.preconditions) == (obj.joints, obj.preconditions)
+    assert bundle.surfaces == obj.surfaces
+    assert bundle.manifest["params"] == obj.provenance["params"]
+    for part, own in zip(bundle.parts, obj.parts, strict=True):
+        assert (part.name, part.label, part.mass.mass) == (own.name, own.label, own.mass.mass)
+        assert_array_equal(part.mass.inertia, own.mass.inertia)
+        mesh = bundle.load_mesh(part.name)
+        assert_array_equal(mesh.triangles, own.mesh.triangles)
+        assert part.triangles == len(mesh.faces)
+        pieces = zip(bundle.load_collision(part.name), own.collision, strict=True)
+        for piece, authored in pieces:  # A box is kept as middle and size: two roundings.
+            assert_allclose(piece.bounds, authored.bounds, rtol=0, atol=4 * 2.0**-53)
+
+
+@pytest.mark.blender
+@pytest.mark.parametrize("name", sorted(READY))
+def test_manifest_lists_every_file_with_its_hash(bundles: dict[str, Path], name: str) -> None:
+    folder = bundles[name]
+    listed = {n: e["sha256"] for n, e in read_bundle(folder).manifest["files"].items()}
+    found = digests(folder)
+    found.pop(layout.MANIFEST)
+    assert listed == found
+
+
+@pytest.mark.blender
+def test_bundles_are_equal_bytes_twice(bundles: dict[str, Path], tmp_path: Path) -> None:
+    """Another process, another worker, another texture library."""
+    library = TextureLibrary(tmp_path / "library")
+    with BlenderWorker(tmp_path / "blender.log") as worker:
+        for name, folder in bundles.items():
+            again = tmp_path / name
+            again.mkdir()
+            write_bundle(READY[name](), again, library=library, worker=worker, thumbnail=b"png")
+            assert digests(again) == digests(folder)
