@@ -38,7 +38,7 @@ def children_of(worker: BlenderWorker) -> list[psutil.Process]:
 
 def _stderr_of(child: psutil.Process) -> str:
     try:
-        return os.readlink(f"/proc/{child.pid}/fd/2")
+        return str(Path(f"/proc/{child.pid}/fd/2").readlink())
     except OSError:
         return ""
 
