@@ -286,7 +286,7 @@ def chest() -> ArticulatedObject:
         slots=[0, 1],
     )
     return _object(
-        "chest_000001", [base, lid], [hinge("lid", "base", "lid", axis=(-1.0, 0.0, 0.0))]
+        "chest_000001", [base, lid], [hinge("hinge", "base", "lid", axis=(-1.0, 0.0, 0.0))]
     )
 
 
