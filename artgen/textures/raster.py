@@ -93,7 +93,7 @@ def _edge_crossings(a: Floats, b: Floats, row: Indices) -> list[tuple[Floats, ND
 
 
 def _barycentric(pixels: Floats, triangle: Indices, points: Floats) -> Floats:
-    """(N, 3) weights; a triangle without area is represented by its first corner."""
+    """(N, 3) weights; a triangle without area is shown by its first corner, and holds no point."""
     a, b, c = pixels[:, 0], pixels[:, 1], pixels[:, 2]
     (px, py), (qx, qy) = (b - a).T, (c - a).T
     area = px * qy - py * qx
@@ -101,4 +101,6 @@ def _barycentric(pixels: Floats, triangle: Indices, points: Floats) -> Floats:
     dx, dy = (points - a[triangle]).T
     second = (dx * (qy * scale)[triangle]) - dy * (qx * scale)[triangle]
     third = dy * (px * scale)[triangle] - dx * (py * scale)[triangle]
-    return np.stack([1.0 - second - third, second, third], axis=1)
+    weights = np.stack([1.0 - second - third, second, third], axis=1)
+    weights[(area == 0.0)[triangle], 1:] = -1.0
+    return weights
