@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from artgen.core.errors import RenderError
-from artgen.core.jsonio import write_bytes
 from artgen.core.mesh import Floats
 
 Bytes = NDArray[np.uint8]
@@ -61,8 +60,8 @@ def srgb_from_linear(values: Floats) -> Floats:
     return np.where(values <= 0.0031308, 12.92 * values, power)
 
 
-def write_png(path: Path, image: Bytes) -> None:
-    """An 8-bit PNG without any metadata, atomically."""
+def png_file(image: Bytes) -> bytes:
+    """An 8-bit PNG without any metadata; equal images give equal bytes."""
     buffer = io.BytesIO()
     Image.fromarray(image).save(buffer, "PNG", optimize=True)
-    write_bytes(path, buffer.getvalue())
+    return buffer.getvalue()

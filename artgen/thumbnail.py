@@ -13,7 +13,7 @@ from artgen.core.camera import framed, orbit_direction
 from artgen.core.jsonio import plain
 from artgen.core.mesh import Floats
 from artgen.core.transform import apply
-from artgen.imaging import display, read_exr, write_png
+from artgen.imaging import display, png_file, read_exr
 from artgen.render_job import RenderJob, Shot
 from artgen.studio import portrait_rig
 from artgen.transport import needed_transport
@@ -30,10 +30,8 @@ FILL = 0.95
 TIMEOUT_S = 120.0
 
 
-def write_thumbnail(
-    obj: ArticulatedObject, *, glb: Path, output: Path, worker: BlenderWorker
-) -> None:
-    """Render the GLB of `obj` into a PNG of 256 x 256 px, sRGB with straight alpha.
+def thumbnail_png(obj: ArticulatedObject, *, glb: Path, worker: BlenderWorker) -> bytes:
+    """The GLB of `obj` as the content of a PNG file: 256 x 256 px, sRGB with straight alpha.
 
     Raises:
         WorkerError: Blender failed. RenderError: the image cannot be read back.
@@ -41,7 +39,7 @@ def write_thumbnail(
     with tempfile.TemporaryDirectory() as scratch:
         job = thumbnail_job(obj, glb=glb, folder=Path(scratch))
         worker.run(plain(job), timeout_s=TIMEOUT_S)
-        write_png(output, display(read_exr(Path(scratch) / job.shots[0].file)))
+        return png_file(display(read_exr(Path(scratch) / job.shots[0].file)))
 
 
 def thumbnail_job(obj: ArticulatedObject, *, glb: Path, folder: Path) -> RenderJob:

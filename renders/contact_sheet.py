@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from artgen.core.jsonio import write_bytes
 from artgen.dataset import open_shard
-from artgen.imaging import Bytes, write_png
+from artgen.imaging import Bytes, png_file
 
 PAPER = 244
 INK = (60, 60, 64)
@@ -20,7 +21,7 @@ COLUMNS = 4
 def write_contact_sheet(path: Path, samples: Iterable[Path]) -> None:
     """A PNG of the staged samples, in their order: first and last state of the first view."""
     cells = [_cell(sample) for sample in samples]
-    write_png(path, _grid(cells))
+    write_bytes(path, png_file(_grid(cells)))
 
 
 def _cell(sample_path: Path) -> Bytes:

@@ -6,7 +6,7 @@ from pathlib import Path
 from artgen.export import glb, mjcf, urdf, usd_joints
 from artgen.export.bundle import Bundle, BundlePart, read_bundle
 from artgen.export.kinematics import FileKinematics
-from artgen.export.write import add_thumbnail, write_bundle
+from artgen.export.write import write_bundle
 
 READERS: Mapping[str, Callable[[Path], FileKinematics]] = {
     "glb": glb.load_kinematics,
@@ -21,7 +21,6 @@ __all__ = [
     "Bundle",
     "BundlePart",
     "FileKinematics",
-    "add_thumbnail",
     "read_bundle",
     "write_bundle",
 ]

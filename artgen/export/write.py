@@ -19,6 +19,7 @@ from artgen.textures.atlas import bake_color
 from artgen.textures.images import TextureSet
 from artgen.textures.library import TextureLibrary
 from artgen.textures.png import png_bytes
+from artgen.thumbnail import thumbnail_png
 from artgen.worker import BlenderWorker
 
 ATLAS_SIZE = 512
@@ -40,23 +41,19 @@ def write_bundle(
         folder: where to; callers make it appear whole by `fill_folder_atomically`.
         library: makes and keeps the images of surfaces.
         worker: writes the GLB.
-        thumbnail: PNG file content, where there is one already.
+        thumbnail: PNG file content; rendered when not given.
 
     Raises:
         ExportError: the object has no texture coordinates or holds a number that is not finite.
         WorkerError: Blender failed.
+        RenderError: the thumbnail cannot be read back.
     """
     images = copy_images(obj, folder, library)
     write_bytes(folder / layout.atlas_path(obj.asset_id), baked_atlas(obj, library))
     write_model_files(obj, folder, images)
     write_glb(obj, folder, images, worker)
-    if thumbnail is not None:
-        write_bytes(folder / layout.THUMBNAIL, thumbnail)
-    write_json(folder / layout.MANIFEST, manifest(obj, folder))
-
-
-def add_thumbnail(obj: ArticulatedObject, folder: Path, thumbnail: bytes) -> None:
-    """Put a PNG into a written bundle and state it in the manifest."""
+    if thumbnail is None:
+        thumbnail = thumbnail_png(obj, glb=folder / layout.GLB, worker=worker)
     write_bytes(folder / layout.THUMBNAIL, thumbnail)
     write_json(folder / layout.MANIFEST, manifest(obj, folder))
 
