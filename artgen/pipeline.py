@@ -4,6 +4,7 @@ import dataclasses
 import json
 import logging
 import multiprocessing
+import os
 import shutil
 import tempfile
 import time
@@ -223,7 +224,7 @@ _tools: Toolbox | None = None
 
 def _open_toolbox(folder: RunFolder) -> None:
     global _tools
-    _tools = Toolbox(folder, multiprocessing.current_process().name.lower())
+    _tools = Toolbox(folder, str(os.getpid()))
 
 
 def _task_in_worker(task: AssetTask) -> Outcome:

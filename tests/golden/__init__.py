@@ -1,0 +1,1 @@
+"""Summaries of one asset a category, in text that a reviewer can read."""

@@ -1,0 +1,45 @@
+"""Rules of the house that no linter knows."""
+
+import ast
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PACKAGES = ("artgen", "renders", "blender_scripts", "category_rules", "model")
+SOURCES = sorted(path for name in PACKAGES for path in (ROOT / name).rglob("*.py"))
+BANNED_NAMES = {"utils", "util", "common", "helpers", "base", "manager", "misc"}
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_files_and_functions_stay_small_and_speak(path: Path) -> None:
+    text = path.read_text()
+    assert text.count("\n") <= 400
+    assert path.stem not in BANNED_NAMES
+    tree = ast.parse(text)
+    assert ast.get_docstring(tree)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            assert (node.end_lineno or 0) - node.lineno < 60, node.name
+
+
+def test_nothing_large_or_foreign_is_tracked() -> None:
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout.split("\0")
+    for name in filter(None, listed):
+        path = ROOT / name
+        if path.is_file():
+            assert path.stat().st_size <= 1_500_000, name
+            assert path.suffix not in {".glb", ".tar", ".blend", ".npz"}, name
+
+
+def test_the_readme_and_the_documents_name_every_command_and_link_to_files_that_exist() -> None:
+    readme = (ROOT / "README.md").read_text()
+    for name in ("generate", "validate", "render", "shard", "inspect", "categories", "doctor"):
+        assert f"`artgen {name}" in readme
+    for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
+        for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
