@@ -1,0 +1,168 @@
+"""Dishwashers: a drop-down door before a tub with sliding racks and turning spray arms."""
+
+import math
+from collections.abc import Callable, Mapping
+
+from artgen.articulation.types import Draft, DraftPart, Joint, Limit, Precondition
+from artgen.core.surface import SurfaceSpec
+from artgen.generators.dishwasher_body import arm_pivot, base, lower_arm, upper_arm
+from artgen.generators.dishwasher_door import door
+from artgen.generators.dishwasher_layout import ENTRY, HOLD, DishwasherParams, Layout, layout
+from artgen.generators.dishwasher_racks import cutlery_tray, lower_rack, upper_rack
+from artgen.generators.kit.counterbalance import counterbalance
+
+PARAMS = DishwasherParams
+
+DOOR_HOLD = 1.15
+"""Friction of the hinge over the torque that the spring leaves: the door stays where it is put."""
+DOOR_LIMIT = 4.8
+"""N m; no door asks for more to be opened or closed."""
+
+
+def build(p: DishwasherParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
+    """At rest the door is shut and the racks are in; the door falls forward, then racks slide out."""
+    at = layout(p)
+    looks = matched(p, surfaces)
+    door_part, own = door(p, at, looks)
+    parts = [base(p, at, looks), door_part, lower_rack(p, at), upper_rack(p, at)]
+    joints = [
+        door_joint(at, door_part),
+        slide("lower_rack", at, friction=9.0),
+        slide("upper_rack", at, friction=7.0),
+    ]
+    if p.cutlery != "basket":
+        parts.append(cutlery_tray(p, at))
+        joints.append(slide("cutlery_tray", at, friction=6.0))
+    parts += [lower_arm(p, at), upper_arm(p, at)]
+    joints += [
+        spin("lower_spray_arm", at, parent="base"),
+        spin("upper_spray_arm", at, parent="upper_rack"),
+    ]
+    return Draft(
+        category="dishwasher",
+        parts=tuple(parts),
+        joints=tuple(joints),
+        surfaces=used((*looks.values(), *own), parts),
+        preconditions=tuple(
+            Precondition(
+                joint=f"{rack}_slide",
+                requires="door_hinge",
+                at_least=at.upper - HOLD if rack == "lower_rack" else ENTRY,
+            )
+            for rack in ("lower_rack", "upper_rack", "cutlery_tray")
+            if any(part.name == rack for part in parts)
+        ),
+    )
+
+
+def matched(p: DishwasherParams, surfaces: Mapping[str, SurfaceSpec]) -> dict[str, SurfaceSpec]:
+    """Surfaces by role; enamel fronts have sides and a top of the same paint."""
+    return dict(surfaces)
+
+
+def used(surfaces: tuple[SurfaceSpec, ...], parts: list[DraftPart]) -> tuple[SurfaceSpec, ...]:
+    """Those that a body wears."""
+    worn = {body.surface for part in parts for body in part.bodies}
+    return tuple(surface for surface in surfaces if surface.name in worn)
+
+
+def door_joint(at: Layout, part: DraftPart) -> Joint:
+    """The hinge; its spring carries the door, its friction holds it."""
+    y, z = at.door.pivot
+    pivot = (0.0, y, z)
+    spring, left = counterbalance(part.bodies, pivot=pivot, upper=at.upper)
+    return Joint(
+        name="door_hinge",
+        type="revolute",
+        parent="base",
+        child="door",
+        axis=(1.0, 0.0, 0.0),  # +q turns the upper edge from +z towards the front, -y
+        origin=pivot,
+        limit=Limit(lower=0.0, upper=at.upper),
+        friction=max(0.5, min(DOOR_HOLD * left, DOOR_LIMIT - left)),
+        damping=0.8,
+        effort=30.0,
+        spring=spring,
+    )
+
+
+def slide(rack: str, at: Layout, *, friction: float) -> Joint:
+    """A rack's way out, towards -y."""
+    return Joint(
+        name=f"{rack}_slide",
+        type="prismatic",
+        parent="base",
+        child=rack,
+        axis=(0.0, -1.0, 0.0),
+        limit=Limit(lower=0.0, upper=at.rack.travel),
+        friction=friction,
+        damping=6.0,
+        effort=120.0,
+        velocity=1.0,
+    )
+
+
+def spin(arm: str, at: Layout, *, parent: str) -> Joint:
+    """A spray arm's free turning."""
+    return Joint(
+        name=f"{arm}_axle",
+        type="continuous",
+        parent=parent,
+        child=arm,
+        axis=(0.0, 0.0, 1.0),
+        origin=arm_pivot(at),
+        limit=None,
+        friction=0.01,
+        damping=0.002,
+        effort=1.0,
+        velocity=6.0,
+    )
+
+
+def handle_suits_front(p: DishwasherParams) -> bool:
+    """Pockets are molded into sheet fronts with a control panel above, not into furniture."""
+    return not (p.handle == "pocket" and p.has_furniture_panel)
+
+
+def door_clears_kick_plate(p: DishwasherParams) -> bool:
+    """The panel's lower edge swings under the pin and must stop short of the kick plate."""
+    at = layout(p)
+    return at.door.pivot[0] + p.drop + 0.003 < p.toe_depth - 0.006
+
+
+def panel_swings_under_sill(p: DishwasherParams) -> bool:
+    """The open door's panel lies lower than the sill reaches."""
+    at = layout(p)
+    return at.door.pivot[1] - (at.door.pivot[0] - at.door.seam) < at.cabinet.toe_height - 0.002
+
+
+def pin_above_kick(p: DishwasherParams) -> bool:
+    """The door's lower edge leaves a visible kick plate of 30 mm at least."""
+    at = layout(p)
+    return at.door.skin_bottom - p.foot > 0.030
+
+
+def pins_fit_under_rack(p: DishwasherParams) -> bool:
+    """Plates on the lower rack stay below the spray arm of the upper one."""
+    at = layout(p)
+    return at.track + 0.044 + p.tine_height < at.upper_floor - 0.060
+
+
+def swing_clears_sill(p: DishwasherParams) -> bool:
+    """The lower edge of the door's inner body turns in front of the cabinet."""
+    at = layout(p)
+    y, z = at.door.pivot
+    return y + math.hypot(at.door.inner - y, z - at.door.bottom) < -0.001
+
+
+INVARIANTS: Mapping[str, Callable[[DishwasherParams], bool]] = {
+    check.__name__: check
+    for check in (
+        handle_suits_front,
+        door_clears_kick_plate,
+        panel_swings_under_sill,
+        pin_above_kick,
+        pins_fit_under_rack,
+        swing_clears_sill,
+    )
+}
