@@ -32,11 +32,14 @@ class Shape:
 
     def boxes(self, object_from_rest: Floats) -> Floats:
         """(K, B, 2, 3) bounds of each body under each of (K, 4, 4) poses."""
-        turned = self.points @ object_from_rest[:, :3, :3].transpose(0, 2, 1)
-        lower = np.minimum.reduceat(turned, self.starts, axis=1)
-        upper = np.maximum.reduceat(turned, self.starts, axis=1)
-        boxes = np.stack([lower, upper], axis=2)
-        return np.asarray(boxes + object_from_rest[:, None, None, :3, 3])
+        shift = object_from_rest[:, None, None, :3, 3]
+        turns = object_from_rest[:, :3, :3]
+        if (turns == np.eye(3)).all():
+            return np.asarray(self.rest + shift)
+        turned = turns @ self.points.T
+        lower = np.minimum.reduceat(turned, self.starts, axis=2)
+        upper = np.maximum.reduceat(turned, self.starts, axis=2)
+        return np.asarray(np.stack([lower, upper], axis=2).transpose(0, 3, 2, 1) + shift)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from artgen.validate import files, inertia, mesh, semantics, simulate, structure
+from artgen.validate import files, inertia, mesh, models, semantics, simulate, structure
 from artgen.validate.report import Finding, Level, Report, Skipped, run_levels
 from artgen.validate.subject import Subject
 
@@ -47,9 +47,9 @@ LEVELS: Iterable[Level[Subject]] = (
         needs=("L1 meshes",),
         checks=(inertia.densities, inertia.centers, inertia.integrals),
     ),
-    Level(name="L3 compile", needs=("L0 manifest",), checks=(simulate.compiles,)),
-    Level(name="L3 model", needs=("L3 compile",), checks=(simulate.joints, simulate.bodies)),
-    Level(name="L3 masses", needs=("L3 model",), checks=(simulate.masses,)),
+    Level(name="L3 compile", needs=("L0 manifest",), checks=(models.compiles,)),
+    Level(name="L3 model", needs=("L3 compile",), checks=(models.joints, models.bodies)),
+    Level(name="L3 masses", needs=("L3 model",), checks=(models.masses,)),
     Level(name="L4 kinematics", needs=("L3 model",), checks=(simulate.kinematics,)),
     Level(
         name="L4 clearance",

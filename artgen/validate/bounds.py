@@ -65,5 +65,6 @@ GROUND = Bound(0.001, "m", "rounding an extreme edge pulls the bounds back by it
 HINGE_SHARE = Bound(0.05, "of the part's diagonal", "hinges sit on an edge of what they turn")
 HINGE_SLACK = Bound(0.002, "m", "plus the joint gap that every hinge leaves")
 TRAVEL = Bound(1.0, "of the part's length", "a slide that travels further leaves its rails")
-CLOSED_SHRINK = Bound(0.01, "of the box", "a closed part cannot be pushed in by more than its gaps")
-CLOSED_REACH = Bound(0.15, "of the range", "how far beyond its stop a part is pushed to see that")
+CLOSED_PLAY = Bound(
+    0.005, "m", "seals and bumpers leave 1 to 3 mm; a part that rests open has more"
+)

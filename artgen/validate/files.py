@@ -11,14 +11,11 @@ from artgen.export.layout import MANIFEST, MJCF, URDF
 from artgen.export.manifest import SCHEMA
 from artgen.validate import bounds
 from artgen.validate.report import Finding
+from artgen.validate.shape import misshapen
 from artgen.validate.stated import file_references
 from artgen.validate.subject import Subject
 
 REPORT = "report.json"
-NEEDED: Mapping[str, type] = {
-    "asset_id": str, "category": str, "parts": list, "joints": list, "files": dict,
-    "preconditions": list, "mass": float,
-}  # fmt: skip
 
 
 def readable(subject: Subject) -> Iterator[Finding]:
@@ -53,8 +50,9 @@ def _manifest_problem(manifest: object) -> str | None:
         return "is not a JSON object"
     if (schema := manifest.get("schema")) != SCHEMA:
         return f"schema {schema!r} instead of {SCHEMA!r}"
-    wrong = [key for key, kind in NEEDED.items() if not isinstance(manifest.get(key), kind)]
-    return f"keys missing or of another kind: {', '.join(wrong)}" if wrong else None
+    if wrong := list(misshapen(manifest)):
+        return f"{len(wrong)} keys are missing or of another kind: {', '.join(wrong[:5])}"
+    return None
 
 
 def hashes(subject: Subject) -> Iterator[Finding]:

@@ -10,7 +10,6 @@ from artgen.export.bundle import BundlePart
 from artgen.export.layout import MANIFEST, URDF
 from artgen.geometry.measure import inertia
 from artgen.validate import bounds
-from artgen.validate.mesh import body_volumes
 from artgen.validate.report import Finding
 from artgen.validate.stated import StatedBody, manifest_bodies, urdf_bodies
 from artgen.validate.subject import Subject
@@ -55,7 +54,10 @@ def densities(subject: Subject) -> Iterator[Finding]:
     allowed = f"{bounds.DENSITY_LOW.value:g} to {bounds.DENSITY_HIGH.value:g} kg/m3"
     message = "grams for kilograms, millimeters for meters, or a forgotten density"
     for part in subject.bundle.parts:
-        volume = float(body_volumes(subject.meshes[part.name]).sum())
+        if part.densities is not None and len(part.densities) != part.bodies:
+            value, bound = float(len(part.densities)), f"{part.bodies} densities, one a body"
+            yield _finding("inertia.density", part.name, value, bound, "export the asset anew")
+        volume = float(subject.volumes[part.name].sum())
         for value in (part.mass.mass / volume, *(part.densities or ())):
             if not bounds.DENSITY_LOW.value <= value <= bounds.DENSITY_HIGH.value:
                 yield _finding("inertia.density", part.name, value, allowed, message)
@@ -85,7 +87,7 @@ def centers(subject: Subject) -> Iterator[Finding]:
 def integrals(subject: Subject) -> Iterator[Finding]:
     """Where body densities are stated: mass, center and tensor equal the exact integral."""
     for part in subject.bundle.parts:
-        if part.densities is None:
+        if part.densities is None or len(part.densities) != part.bodies:
             continue
         mesh = subject.meshes[part.name]
         for what, value in integral_errors(part, mesh).items():

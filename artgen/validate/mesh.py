@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from artgen.core.errors import GeometryError
-from artgen.core.mesh import Floats, TriMesh
+from artgen.core.mesh import TriMesh
 from artgen.export.layout import GLB
 from artgen.geometry.convex import convexity_gap
 from artgen.geometry.measure import open_edges
@@ -17,12 +17,12 @@ from artgen.validate.subject import Subject
 
 
 def readable(subject: Subject) -> Iterator[Finding]:
-    """Every part's OBJ can be read: finite vertices, triangles that name existing ones."""
-    for path, mesh in subject.mesh_files.items():
+    """Visual OBJ and collision pieces can be read: finite vertices, triangles that name them."""
+    for label, mesh in {**subject.mesh_files, **subject.collision_files}.items():
         if isinstance(mesh, str):
             yield Finding(
                 check="mesh.readable",
-                part=path,
+                part=label,
                 value=mesh,
                 bound="readable triangles",
                 message="MuJoCo refuses such a mesh too; export the asset anew",
@@ -59,23 +59,16 @@ def _diagnosis(mesh: TriMesh, body: int) -> tuple[float | str, str]:
 
 def volumes(subject: Subject) -> Iterator[Finding]:
     """Every body encloses a positive volume: outward normals."""
-    for name, mesh in subject.meshes.items():
-        for index, volume in enumerate(body_volumes(mesh)):
+    for name, found in subject.volumes.items():
+        for index, volume in enumerate(found.tolist()):
             if volume <= 0.0:
                 yield Finding(
                     check="mesh.volume",
                     part=f"{name}, body {index}",
-                    value=float(volume),
+                    value=volume,
                     bound="> 0 m3",
                     message="its triangles wind inward, so mass comes out negative; flip them",
                 )
-
-
-def body_volumes(mesh: TriMesh) -> Floats:
-    """(B,) signed volume of each body, m3, about the middle of the mesh."""
-    a, b, c = (mesh.triangles - mesh.bounds.mean(axis=0)).transpose(1, 0, 2)
-    signed = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-    return np.asarray(np.bincount(np.asarray(mesh.body), weights=signed), np.float64)
 
 
 def sizes(subject: Subject) -> Iterator[Finding]:
@@ -132,7 +125,7 @@ def stated(subject: Subject) -> Iterator[Finding]:
             "triangles": (abs(len(mesh.faces) - part.triangles), 0),
             "bodies": (abs(int(mesh.body.max()) + 1 - part.bodies), 0),  # type: ignore[union-attr]
             "volume": (
-                abs(float(body_volumes(mesh).sum()) - part.volume) / part.volume,
+                abs(float(subject.volumes[part.name].sum()) - part.volume) / part.volume,
                 bounds.INTEGRAL.value,
             ),
         }
@@ -177,7 +170,7 @@ def collision(subject: Subject) -> Iterator[Finding]:
     margin = np.array([[-1.0], [1.0]]) * bounds.COLLISION_REACH.value
     for part in subject.bundle.parts:
         lower, upper = subject.meshes[part.name].bounds + margin
-        for index, piece in enumerate(subject.bundle.load_collision(part.name)):
+        for index, piece in enumerate(subject.collision[part.name]):
             label = f"{part.name}, piece {index}"
             low, high = piece.bounds
             out = float(max((lower - low).max(), (high - upper).max()))

@@ -87,27 +87,40 @@ def band_findings(
 
 
 def closed_at_rest(subject: Subject) -> Iterator[Finding]:
-    """No part can be pushed in further: pushed beyond its stop, it meets its parent before the box
-    around the two has shrunk."""
+    """No part can be closed further: pushed beyond its stop, it meets its parent before it has come
+    nearer to the parent's box.
+
+    Nearer in the mean over its volume, so that a handle that enters an opening does not count.
+    """
     for joint in subject.bundle.joints:
         if joint.limit is None or joint.mimic is not None:
             continue
         reach = joint.limit.upper - joint.limit.lower
         states = tuple({joint.name: joint.limit.lower - share * reach} for share in PUSHES)
         pair = _pair_movers(subject, joint, Sweep(joint=joint.name, states=({}, *states)))
-        boxes = np.concatenate([mover.shape.boxes(mover.poses) for mover in pair], axis=1)
-        extent = boxes[:, :, 1].max(axis=1) - boxes[:, :, 0].min(axis=1)
-        shrink = 1.0 - extent.prod(axis=1) / extent[0].prod()
-        pushed = np.flatnonzero(shrink > bounds.CLOSED_SHRINK.value)
-        if len(pushed) and not any(_crosses(pair, pose) for pose in range(1, pushed[0] + 1)):
+        distance = distances(*pair)
+        play = distance[0] - distance
+        closer = np.flatnonzero(play > bounds.CLOSED_PLAY.value)
+        if len(closer) and not any(_crosses(pair, pose) for pose in range(1, closer[0] + 1)):
             yield Finding(
                 check="semantics.closed",
                 part=joint.child,
-                value=float(shrink[pushed[0]]),
-                bound=bounds.CLOSED_SHRINK.at_most(),
-                message=f"pushed {PUSHES[pushed[0] - 1]:.0%} of its range beyond rest it "
-                f"still moves freely into {joint.parent}; state the joint from the closed end",
+                value=float(play[closer[0]]),
+                bound=bounds.CLOSED_PLAY.at_most(),
+                message=f"pushed {PUSHES[closer[0] - 1]:.0%} of its range beyond rest it still "
+                f"moves freely toward {joint.parent}; state the joint from the closed end",
             )
+
+
+def distances(parent: Mover, child: Mover) -> Floats:
+    """(K,) mean distance of the child's volume from the parent's box at rest, m; bodies count by
+    their middles."""
+    lower, upper = parent.shape.rest[:, 0].min(axis=0), parent.shape.rest[:, 1].max(axis=0)
+    middles = child.shape.rest.mean(axis=1)
+    moved = middles @ child.poses[:, :3, :3].transpose(0, 2, 1) + child.poses[:, None, :3, 3]
+    outside = np.maximum(lower - moved, moved - upper).clip(min=0.0)
+    volume = np.array([body.volume() for body in child.shape.bodies])
+    return np.asarray(np.linalg.norm(outside, axis=2) @ volume / volume.sum())
 
 
 def _pair_movers(subject: Subject, joint: Joint, sweep: Sweep) -> list[Mover]:

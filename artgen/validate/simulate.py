@@ -1,6 +1,7 @@
-"""L3 and L4: MuJoCo accepts the files and agrees with them; nothing interpenetrates; rest holds."""
+"""L4: MuJoCo moves parts where we do, nothing interpenetrates on the way, and rest holds."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 import mujoco
 import numpy as np
@@ -9,7 +10,7 @@ from artgen.articulation.kinematics import forward_kinematics, resolved
 from artgen.articulation.types import Joint, State
 from artgen.core.mesh import Floats
 from artgen.core.stream import Stream
-from artgen.export.bundle import Bundle, BundlePart
+from artgen.export.bundle import Bundle
 from artgen.export.layout import MJCF, URDF
 from artgen.validate import bounds
 from artgen.validate.physics import body_names, set_state
@@ -22,107 +23,6 @@ SETTLE_SECONDS = 2.0
 """Long enough for friction creep and for a part that is not held to swing away."""
 
 
-def compiles(subject: Subject) -> Iterator[Finding]:
-    """MuJoCo compiles MJCF and URDF."""
-    for file in (MJCF, URDF):
-        try:
-            model_of(subject, file)
-        except ValueError as error:
-            yield Finding(
-                check="compile.file",
-                part=file,
-                value=" ".join(str(error).split()),
-                bound="a model",
-                message="MuJoCo refuses the file; its message tells the element",
-            )
-
-
-def model_of(subject: Subject, file: str) -> mujoco.MjModel:
-    """The compiled model of one of the two files."""
-    return subject.mjcf_model if file == MJCF else subject.urdf_model
-
-
-def joints(subject: Subject) -> Iterator[Finding]:
-    """Every joint is there, of its kind, and its limits are really in force."""
-    for file in (MJCF, URDF):
-        model = model_of(subject, file)
-        if model.nv != len(subject.bundle.joints):
-            yield _compile_finding(
-                "compile.dof",
-                file,
-                float(model.nv),
-                f"{len(subject.bundle.joints)} degrees of freedom",
-            )
-            continue
-        for joint in subject.bundle.joints:
-            yield from _joint_findings(file, model, joint)
-
-
-SLIDE = int(mujoco.mjtJoint.mjJNT_SLIDE)
-HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
-
-
-def _joint_findings(file: str, model: mujoco.MjModel, joint: Joint) -> Iterator[Finding]:
-    label = f"{joint.name} ({file})"
-    number = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, joint.name)
-    if number < 0:
-        yield _compile_finding("compile.joint", label, "missing", "a joint of that name")
-        return
-    kind = SLIDE if joint.type == "prismatic" else HINGE
-    if model.jnt_type[number] != kind:
-        yield _compile_finding("compile.joint", label, f"type {model.jnt_type[number]}", f"{kind}")
-    limited = bool(model.jnt_limited[number])
-    if limited != (joint.limit is not None):
-        yield _compile_finding("compile.limit", label, f"limited = {limited}", joint.type)
-    elif joint.limit is not None:
-        found = model.jnt_range[number].tolist()
-        if found != [joint.limit.lower, joint.limit.upper]:
-            expected = f"[{joint.limit.lower}, {joint.limit.upper}]"
-            yield _compile_finding("compile.limit", label, str(found), expected)
-
-
-def _compile_finding(check: str, part: str, value: float | str, bound: str) -> Finding:
-    message = "the compiled model differs from the manifest; check the exporter, then export anew"
-    return Finding(check=check, part=part, value=value, bound=bound, message=message)
-
-
-def bodies(subject: Subject) -> Iterator[Finding]:
-    """Every part is a body of its own."""
-    for file in (MJCF, URDF):
-        names = body_names(model_of(subject, file))
-        for part in subject.bundle.parts:
-            if part.name not in names:
-                yield _compile_finding("compile.body", f"{part.name} ({file})", "missing", "a body")
-
-
-def masses(subject: Subject) -> Iterator[Finding]:
-    """Compiled mass, center and inertia of each body are those of the manifest."""
-    for file in (MJCF, URDF):
-        data = mujoco.MjData(model_of(subject, file))
-        mujoco.mj_kinematics(model_of(subject, file), data)
-        for part in subject.bundle.parts:
-            for what, value in _mass_errors(model_of(subject, file), data, part).items():
-                if not value <= bounds.AGREEMENT.value:
-                    label = f"{part.name} ({file})"
-                    expected = f"{what} of the manifest within {bounds.AGREEMENT.value:g}"
-                    yield _compile_finding("compile.mass", label, value, expected)
-
-
-def _mass_errors(
-    model: mujoco.MjModel, data: mujoco.MjData, part: BundlePart
-) -> Mapping[str, float]:
-    """Relative errors of mass and tensor, and the center's in m, of one compiled body at rest."""
-    body = model.body(part.name).id
-    axes = data.ximat[body].reshape(3, 3)
-    tensor = (axes * model.body_inertia[body]) @ axes.T
-    largest = np.abs(part.mass.inertia).max()
-    return {
-        "mass": abs(float(model.body_mass[body]) / part.mass.mass - 1.0),
-        "center": float(np.abs(data.xipos[body] - part.mass.center).max()),
-        "inertia": float(np.abs(tensor - part.mass.inertia).max() / largest),
-    }
-
-
 def kinematics(subject: Subject) -> Iterator[Finding]:
     """At random states MuJoCo puts every part where our forward kinematics does."""
     bundle = subject.bundle
@@ -130,7 +30,7 @@ def kinematics(subject: Subject) -> Iterator[Finding]:
     free = [joint for joint in bundle.joints if joint.mimic is None]
     states = [{j.name: _random_q(j, rng) for j in free} for _ in range(RANDOM_POSES)]
     for file in (MJCF, URDF):
-        model = model_of(subject, file)
+        model = subject.model(file)
         data = mujoco.MjData(model)
         errors = np.max([_pose_errors(bundle, model, data, state) for state in states], axis=0)
         for part, error in zip(bundle.parts, errors.tolist(), strict=True):
@@ -171,7 +71,7 @@ def collisions(subject: Subject) -> Iterator[Finding]:
 
     Parents are not exempt: with a fixed base MuJoCo lets them collide, and a drawer would jam.
     """
-    bundle, model = subject.bundle, subject.mjcf_model
+    bundle, model = subject.bundle, subject.model(MJCF)
     data = mujoco.MjData(model)
     names = body_names(model)
     worst: dict[tuple[str, str], tuple[float, str]] = {}
@@ -230,11 +130,12 @@ def exact_overlaps(subject: Subject) -> Iterator[Finding]:
 
 def settles(subject: Subject) -> Iterator[Finding]:
     """Left alone for two seconds, joints stay within the sag and creep of soft constraints."""
-    model = subject.mjcf_model
+    model = subject.model(MJCF)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     allowed = drift_bound(model, data)
-    mujoco.mj_step(model, data, nstep=round(SETTLE_SECONDS / model.opt.timestep))
+    with contact_as_needed(model, data):
+        mujoco.mj_step(model, data, nstep=round(SETTLE_SECONDS / model.opt.timestep))
     for number, warning in enumerate(data.warning):
         if warning.number > 0:
             name = mujoco.mjtWarning(number).name
@@ -248,6 +149,18 @@ def settles(subject: Subject) -> Iterator[Finding]:
                 "gravity or a spring moves it from rest, or contact pushes it; raise its friction"
             )
             yield _settle_finding(joint.name, found, f"<= {bound:.3g} rad or m", cause)
+
+
+@contextmanager
+def contact_as_needed(model: mujoco.MjModel, data: mujoco.MjData) -> Iterator[None]:
+    """Contact is most of a step's time; where nothing touches at rest, it cannot act there."""
+    flags = model.opt.disableflags
+    if data.ncon == 0:
+        model.opt.disableflags = flags | mujoco.mjtDisableBit.mjDSBL_CONTACT
+    try:
+        yield
+    finally:
+        model.opt.disableflags = flags
 
 
 def _settle_finding(part: str, value: float | str, bound: str, cause: str) -> Finding:

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import mujoco
+import numpy as np
 
-from artgen.core.errors import GeometryError
-from artgen.core.mesh import TriMesh
+from artgen.core.errors import ArtgenError, GeometryError
+from artgen.core.mesh import Floats, TriMesh
 from artgen.export.bundle import Bundle, read_bundle
 from artgen.export.layout import MANIFEST, MJCF, URDF
 from artgen.geometry.clearance import Shape, shape_of_mesh
@@ -65,16 +66,46 @@ class Subject:
         return {name: mesh for name, mesh in read.items() if isinstance(mesh, TriMesh)}
 
     @cached_property
+    def collision_files(self) -> Mapping[str, tuple[TriMesh, ...] | str]:
+        """Part name to its collision pieces, or to what keeps them from being read."""
+        return {part.name: self._read_collision(part.name) for part in self.bundle.parts}
+
+    def _read_collision(self, part: str) -> tuple[TriMesh, ...] | str:
+        try:
+            return self.bundle.load_collision(part)
+        except (ArtgenError, OSError, ValueError, IndexError) as error:
+            return str(error)
+
+    @cached_property
+    def collision(self) -> Mapping[str, tuple[TriMesh, ...]]:
+        """Part name to its collision pieces."""
+        read = self.collision_files
+        return {name: pieces for name, pieces in read.items() if isinstance(pieces, tuple)}
+
+    @cached_property
     def shapes(self) -> Mapping[str, Shape]:
         """Part name to its closed bodies."""
         return {name: shape_of_mesh(mesh) for name, mesh in self.meshes.items()}
 
     @cached_property
-    def mjcf_model(self) -> mujoco.MjModel:
-        """What MuJoCo makes of the MJCF."""
-        return compiled(self.folder / MJCF)
+    def volumes(self) -> Mapping[str, Floats]:
+        """Part name to the (B,) signed volumes of its bodies, m3."""
+        return {name: body_volumes(mesh) for name, mesh in self.meshes.items()}
 
     @cached_property
-    def urdf_model(self) -> mujoco.MjModel:
-        """What MuJoCo makes of the URDF."""
-        return compiled(self.folder / URDF)
+    def models(self) -> dict[str, mujoco.MjModel]:
+        """Compiled models by file, filled as `model` is asked."""
+        return {}
+
+    def model(self, file: str) -> mujoco.MjModel:
+        """What MuJoCo makes of the MJCF or URDF; ValueError where it refuses."""
+        if file not in self.models:
+            self.models[file] = compiled(self.folder / file)
+        return self.models[file]
+
+
+def body_volumes(mesh: TriMesh) -> Floats:
+    """(B,) signed volume of each body, m3, about the middle of the mesh."""
+    a, b, c = (mesh.triangles - mesh.bounds.mean(axis=0)).transpose(1, 0, 2)
+    signed = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+    return np.asarray(np.bincount(np.asarray(mesh.body), weights=signed), np.float64)

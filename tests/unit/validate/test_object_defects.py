@@ -275,6 +275,19 @@ def test_a_precondition_that_opens_too_little_is_found(tmp_path: Path) -> None:
     assert "with hinge = 0.3491" in overlaps[0].message
 
 
+def test_an_inset_drawer_with_a_handle_is_closed(tmp_path: Path) -> None:
+    """Only its handle comes nearer when it is pushed, so 45 mm of free play behind do not count."""
+    inset: tuple[Corners, ...] = (
+        ((-0.278, -0.18, 0.502), (0.278, -0.162, 0.68)),
+        ((-0.27, -0.162, 0.51), (0.27, 0.15, 0.52)),
+        ((-0.27, -0.162, 0.52), (-0.258, 0.15, 0.64)),
+        ((0.258, -0.162, 0.52), (0.27, 0.15, 0.64)),
+        ((-0.05, -0.205, 0.6), (0.05, -0.18, 0.61)),
+    )
+    bundle = write_quick_bundle(cupboard(drawer=inset), tmp_path / "bundle")
+    assert [str(finding) for finding in validate_bundle(bundle).findings] == []
+
+
 def test_bands_name_the_measure_and_the_rule() -> None:
     allowed = {"width": Band(0.3, 0.5), "mass": Band(1.0, 2.0)}
     (finding,) = band_findings("rules/x.toml", {"width": 0.51, "mass": 2.0}, allowed)
