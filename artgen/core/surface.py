@@ -11,7 +11,8 @@ class SurfaceSpec:
     Attributes:
         name: unique within an object, e.g. `front`.
         recipe: a key of `artgen.textures.RECIPES`; `plain` has no images.
-        color: linear RGB in [0, 1]; multiplies the color image where the recipe makes one.
+        color: linear RGB in [0, 1]; where the recipe makes a color image, its mean: the image
+            stands instead of it.
         roughness: [0, 1] as in glTF.
         metallic: 0 or 1 as in glTF.
         transmission: 1 for thin clear panes, 0 for the rest.
