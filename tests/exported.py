@@ -185,8 +185,9 @@ def mujoco_boxes(obj: ArticulatedObject, folder: Path, file: str, state: State) 
         name = f"{part.name}_visual"
         geom, placed = model.geom(name), data.geom(name)
         mesh = int(geom.dataid[0])
-        start, count = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
-        points = model.mesh_vert[start : start + count].astype(float)
+        start, first = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
+        faces = model.mesh_face[first : first + model.mesh_facenum[mesh]]
+        points = model.mesh_vert[start + np.unique(faces)].astype(float)  # Only what is shown.
         boxes[part.name] = _box(apply(rigid(placed.xmat.reshape(3, 3), placed.xpos), points))
     return boxes
 

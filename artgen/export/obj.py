@@ -10,10 +10,12 @@ from artgen.geometry.normals import corner_normals
 
 MATERIAL = "atlas"
 FACE = "f {}/{}/{} {}/{}/{} {}/{}/{}"
+BODY = "# body "
+"""Starts a closed body. A comment, as MuJoCo 4.0 takes the faces of the first `g` or `o` alone."""
 
 
 def obj_text(mesh: TriMesh, *, mtl: str) -> str:
-    """The part's triangles, grouped by closed body: `v`, `vt` (atlas set), `vn`, `f v/vt/vn`.
+    """The part's triangles, body after body: `v`, `vt` (atlas set), `vn`, `f v/vt/vn`.
 
     Args:
         mesh: a finished mesh; bodies share no vertices.
@@ -34,7 +36,7 @@ def obj_text(mesh: TriMesh, *, mtl: str) -> str:
     lines.append(f"usemtl {MATERIAL}")
     faces, bodies = corner.reshape(-1, 9), np.asarray(mesh.body)
     for body in range(int(bodies.max()) + 1):
-        lines.append(f"g body_{body}")
+        lines.append(f"{BODY}{body}")
         own = faces[bodies == body].tolist()
         lines += [FACE.format(*face) for face in own]
     return "\n".join(lines) + "\n"
@@ -74,7 +76,7 @@ def read_obj(text: str) -> TriMesh:
         keyword, _, rest = line.partition(" ")
         if keyword in found:
             found[keyword].append(rest)
-        elif keyword == "g":
+        elif line.startswith(BODY):
             starts.append(len(found["f"]))
         elif keyword not in ("mtllib", "usemtl"):
             raise ExportError(

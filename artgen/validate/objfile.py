@@ -9,12 +9,13 @@ from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, Ints, TriMesh
 
 NEEDED = (b"v", b"vt", b"f")
+BODY = b"\n# body "
 
 
 def read_triangles(path: Path) -> TriMesh:
-    """The OBJ's vertices, triangles, texture coordinates (as `atlas`) and groups (as `body`).
+    """The OBJ's vertices, triangles, texture coordinates (as `atlas`) and bodies.
 
-    Reads what artgen writes: blocks of `v`, `vt`, `vn`, then `g` and `f` lines with triangles only.
+    Reads what artgen writes: blocks of `v`, `vt`, `vn`, then a comment a body and `f` lines of triangles.
 
     Raises:
         GeometryError: a block is missing, ragged, or holds what is not a number, or a face names a
@@ -23,7 +24,7 @@ def read_triangles(path: Path) -> TriMesh:
     text = path.read_bytes()
     vertices = _table(path, _block(text, b"v"), b"v", 3)
     texture = _table(path, _block(text, b"vt"), b"vt", 2)
-    groups = text[text.index(b"\ng ") :].split(b"\ng ")[1:] if b"\ng " in text else []
+    groups = text[text.index(BODY) :].split(BODY)[1:] if BODY in text else []
     corners, counts = _faces(path, groups)
     if len(corners) and corners[..., 1].max() >= len(texture):
         raise GeometryError(f"{path.name}: a face names texture point {corners[..., 1].max() + 1}")

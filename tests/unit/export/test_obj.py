@@ -1,7 +1,9 @@
 """OBJ: what is written reads back bit for bit, by us and by trimesh."""
 
 import io
+from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 import trimesh
@@ -42,9 +44,15 @@ def test_trimesh_reads_the_same_triangles_and_normals() -> None:
     assert_allclose(normals, corner_normals(mesh), rtol=0, atol=1e-5)
 
 
-def test_bodies_are_groups() -> None:
-    text = obj_text(mesh_of([UNIT, ((2.0, 0.0, 0.0), (3.0, 1.0, 1.0))]), mtl="m.mtl")
-    assert [line for line in text.splitlines() if line.startswith("g ")] == ["g body_0", "g body_1"]
+def test_mujoco_loads_the_faces_of_every_body(tmp_path: Path) -> None:
+    """Bodies were `g` groups once, of which MuJoCo takes the faces of the first alone."""
+    mesh = mesh_of([UNIT, ((2.0, 0.0, 0.0), (3.0, 1.0, 1.0))])
+    (tmp_path / "m.obj").write_text(obj_text(mesh, mtl="m.mtl"))
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><asset><mesh name="m" file="{tmp_path}/m.obj"/></asset><worldbody>'
+        '<geom type="mesh" mesh="m"/></worldbody></mujoco>'
+    )
+    assert model.nmeshface == len(mesh.faces) == 24
 
 
 def test_distinct_keeps_the_order_of_first_use() -> None:

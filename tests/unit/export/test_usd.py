@@ -118,7 +118,7 @@ def test_a_part_of_one_surface_is_bound_whole(textured: Usd.Stage) -> None:
 
 
 def test_the_physics_parser_finds_every_body_joint_and_shape(textured: Usd.Stage) -> None:
-    found = UsdPhysics.LoadUsdPhysicsFromRange(textured, ["/"])
+    found = UsdPhysics.UsdPhysicsLoadStageFromPrimRange(textured, ["/"])
     assert all(desc.isValid for _, descs in found.values() for desc in descs)
     types = UsdPhysics.ObjectType
     counts = {types.RigidBody: 4, types.Articulation: 1, types.RevoluteJoint: 2,
