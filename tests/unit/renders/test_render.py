@@ -17,6 +17,7 @@ from artgen.render_job import RenderJob, Shot
 from artgen.worker import BlenderWorker
 from renders.collect import cast
 from renders.plan import RenderPlan, Settings, plan_render
+from renders.raycast import BACKGROUND
 
 pytestmark = pytest.mark.blender
 
@@ -82,7 +83,44 @@ def test_opaque_parts_cover_the_pixels_that_rays_hit(
             assert (alpha[inner][around.all(axis=0)[inner]] > 0.999).all()
             # The tip of a corner may pass between pixel centres.
             assert np.count_nonzero(alpha[inner][~around.any(axis=0)[inner]]) <= 2
-        inside = same.all(axis=0) & (ids != 255) & (ids != names.index("lid"))
+            checked += int(around.all(axis=0)[inner].sum())
+    assert checked > 2000
+
+
+def test_no_part_reaches_beyond_its_window(
+    plan: RenderPlan, blender: BlenderWorker, tmp_path: Path
+) -> None:
+    parts = plan.bundle.parts
+    shots = [shot(f"{p}.exr", part=part.name, samples=4) for p, part in enumerate(parts)]
+    for p, image in enumerate(rendered(blender, with_shots(plan, shots, tmp_path))):
+        left, top, right, bottom = plan.passes.boxes[0][0][p]
+        outside = image.copy()
+        outside[top:bottom, left:right] = 0
+        assert image.any()
+        assert not outside.any()
+
+
+def test_a_window_shows_what_the_whole_image_shows_there(
+    plan: RenderPlan, blender: BlenderWorker, tmp_path: Path
+) -> None:
+    box = plan.passes.boxes[0][0][1]
+    window = dataclasses.replace(shot("window.exr", part="door"), box=box)
+    job = with_shots(plan, [shot("whole.exr", part="door"), window], tmp_path)
+    whole, cut = rendered(blender, job)
+    left, top, right, bottom = box
+    assert np.array_equal(whole[top:bottom, left:right], cut)
+
+
+def test_part_ids_agree_with_the_nearest_alpha(plan: RenderPlan, images: list[Floats]) -> None:
+    """In the composite, alpha is 1 where an opaque part is nearest, away from outlines."""
+    labels = cast(plan)
+    lid = [part.name for part in plan.bundle.parts].index("lid")
+    steps = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+    for t, v in np.ndindex(2, 2):
+        alpha = images[plan.passes.composite[t][v]][..., 3]
+        ids = labels[t][v].part_id
+        same = np.stack([np.roll(ids, step, axis=(0, 1)) == ids for step in steps])
+        inside = same.all(axis=0) & (ids != BACKGROUND) & (ids != lid)
         assert (alpha[inside] > 0.999).all()
 
 
