@@ -63,12 +63,18 @@ def test_tiles_repeat_and_turn():
 
 
 def test_gutters_repeat_the_border_and_the_rest_is_the_mean():
-    spec = SurfaceSpec(name="c", recipe="plain", color=(0.2, 0.4, 0.6))
-    baked = bake_color([quad((0.0, 0.0, 0.25, 0.25), (0, 0, 1, 1))], [spec], [TextureSet()],
-                       size=32)  # fmt: skip
-    shown = srgb_from_linear(np.array([0.2, 0.4, 0.6]))
-    assert (baked[24 - GUTTER :, : 8 + GUTTER] == shown).all(axis=2).mean() > 0.95  # round corner
-    assert (baked == shown).all()  # one color: its mean is itself
+    """Two charts of one size in opposite corners, black and white."""
+    colors = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    surfaces = [SurfaceSpec(name=str(c), recipe="plain", color=c) for c in colors]
+    charts = (0.0, 0.0, 0.25, 0.25), (0.75, 0.75, 1.0, 1.0)
+    meshes = [quad(chart, (0, 0, 1, 1), slot) for slot, chart in enumerate(charts)]
+    baked = bake_color(meshes, surfaces, [TextureSet(), TextureSet()], size=32)[..., 0]
+    expected = np.full((32, 32), srgb_from_linear(np.array([0.5]))[0])
+    away = np.maximum(np.arange(32) - 7, 0)  # texels beyond the chart's last one
+    near = np.hypot(away[:, None], away[None, :]) <= GUTTER
+    expected[near[::-1]] = 0
+    expected[near[:, ::-1]] = 255
+    assert np.array_equal(baked, expected)
 
 
 def test_each_surface_shows_on_its_own_triangles():
