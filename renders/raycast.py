@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from artgen.core.camera import Camera
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.transform import apply, inverted
+from artgen.dataset.sample import BACKGROUND
 from artgen.geometry.normals import corner_normals, unit
 
-BACKGROUND = 255
 Box = tuple[int, int, int, int]
 
 
