@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 from artgen.core.errors import UsageError
 from artgen.core.surface import SurfaceSpec
+from artgen.textures.appliance_panel import appliance_display, appliance_panel
 from artgen.textures.coat import enamel, paint
 from artgen.textures.grain import plastic, rubber
 from artgen.textures.images import TextureSet
@@ -19,6 +20,8 @@ VERSION = 1
 
 RECIPES: Mapping[str, Callable[[SurfaceSpec], TextureSet]] = {
     "anodized": anodized,
+    "appliance_display": appliance_display,
+    "appliance_panel": appliance_panel,
     "brushed": brushed,
     "enamel": enamel,
     "paint": paint,
