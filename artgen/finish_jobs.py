@@ -121,7 +121,7 @@ class GltfPart:
 
 @dataclass(frozen=True, kw_only=True)
 class GltfJob:
-    """Write one GLB; the arrays of part k lie in `arrays` as `write_gltf_arrays` puts them.
+    """Write one GLB; the arrays of every part lie in `arrays` as `write_gltf_arrays` puts them.
 
     Attributes:
         parts: base first, parents before children.
@@ -172,17 +172,20 @@ class GltfArrays:
     slot: NDArray[np.int16]
 
 
-def write_gltf_arrays(path: Path, parts: Sequence[GltfArrays]) -> None:
-    """One npz for all parts, in the order of `GltfJob.parts`."""
-    named = {f"{name}_{k}": getattr(part, name) for k, part in enumerate(parts) for name in _ARRAYS}
+def write_gltf_arrays(path: Path, parts: Mapping[str, GltfArrays]) -> None:
+    """One npz for all parts: `<part>/<array>`."""
+    named = {f"{part}/{name}": getattr(parts[part], name) for part in parts for name in _ARRAYS}
     np.savez(path, **named)
 
 
-def read_gltf_arrays(path: Path) -> list[GltfArrays]:
-    """What `write_gltf_arrays` wrote."""
+def read_gltf_arrays(path: Path) -> dict[str, GltfArrays]:
+    """Part name to what `write_gltf_arrays` wrote."""
     with np.load(path) as stored:
-        count = len(stored.files) // len(_ARRAYS)
-        return [GltfArrays(**{n: stored[f"{n}_{k}"] for n in _ARRAYS}) for k in range(count)]
+        parts = dict.fromkeys(key.rpartition("/")[0] for key in stored.files)
+        return {
+            part: GltfArrays(**{name: stored[f"{part}/{name}"] for name in _ARRAYS})
+            for part in parts
+        }
 
 
 _ARRAYS = tuple(f.name for f in fields(GltfArrays))

@@ -48,8 +48,8 @@ def _build(task: GltfJob) -> None:
     arrays = read_gltf_arrays(Path(task.arrays))
     objects: dict[str, bpy.types.Object] = {}
     origins = {part.name: np.array(part.origin) for part in task.parts}
-    for part, own in zip(task.parts, arrays, strict=True):
-        mesh = mesh_from_arrays(part.name, own, origins[part.name], materials)
+    for part in task.parts:
+        mesh = mesh_from_arrays(part.name, arrays[part.name], origins[part.name], materials)
         node = bpy.data.objects.new(part.name, mesh)
         bpy.context.scene.collection.objects.link(node)
         above = np.zeros(3)

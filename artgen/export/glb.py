@@ -51,7 +51,7 @@ def write_glb(
     """
     with tempfile.TemporaryDirectory() as scratch:
         arrays = Path(scratch) / "arrays.npz"
-        write_gltf_arrays(arrays, [part_arrays(part, obj) for part in obj.parts])
+        write_gltf_arrays(arrays, {part.name: part_arrays(part, obj) for part in obj.parts})
         job = gltf_job(obj, folder, images, arrays)
         worker.run(plain(job), timeout_s=TIMEOUT_S)
 

@@ -62,7 +62,9 @@ def job(folder: Path) -> GltfJob:
     picture = np.random.default_rng(7).integers(0, 255, (8, 8, 3), np.uint8)
     for name in ("color", "orm"):
         Image.fromarray(picture).save(folder / f"wood_{name}.png")
-    write_gltf_arrays(folder / "arrays.npz", PARTS)
+    write_gltf_arrays(
+        folder / "arrays.npz", dict(zip(("knob", "door", "base"), PARTS[::-1], strict=True))
+    )
     images = {
         "wood": GltfImages(color=str(folder / "wood_color.png"), orm=str(folder / "wood_orm.png"))
     }
