@@ -28,6 +28,11 @@ def test_png_keeps_every_pixel(image, values):
         assert np.array_equal(np.asarray(picture.convert("RGB")), image)
 
 
+def test_palettes_have_eight_bits():
+    """pybullet 3.2 refuses smaller ones; byte 24 of a PNG is its bit depth."""
+    assert png_bytes(np.zeros((4, 4, 3), np.uint8))[24] == 8
+
+
 def test_many_colors_are_kept_too():
     image = np.arange(40 * 40 * 3, dtype=np.uint32).reshape(40, 40, 3).astype(np.uint8)
     image[..., 0] = np.arange(40)[:, None]
