@@ -34,6 +34,8 @@ def mjcf_text(obj: ArticulatedObject) -> str:
     )  # fmt: skip
     # 1e-12 costs no time and keeps light movers on heavy bases exact.
     ET.SubElement(root, "option", timestep="0.002", integrator="implicitfast", tolerance="1e-12")
+    visual = ET.SubElement(root, "visual")  # Opened alone, the asset has no other light.
+    ET.SubElement(visual, "headlight", ambient="0.4 0.4 0.4", diffuse="0.6 0.6 0.6")
     root.append(_defaults())
     root.append(_assets(obj))
     world = ET.SubElement(root, "worldbody")
