@@ -19,7 +19,10 @@ VERTEX_DECIMALS = 7
 """Finished vertices are rounded to 1e-7 m, so that every text format prints them exactly and short.
 """
 UV_DECIMALS = 6
-NORMAL_DECIMALS = 5
+ATLAS_DECIMALS = 5
+"""A hundredth of a texel at 1024 px."""
+NORMAL_DECIMALS = 3
+"""0.03 degrees."""
 
 Y_UP_FROM_Z_UP = np.array(
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from artgen.core.conventions import UV_DECIMALS
+from artgen.core.conventions import ATLAS_DECIMALS, UV_DECIMALS
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, Ints
 
@@ -94,7 +94,7 @@ def atlas_uv(parts: Sequence[tuple[Floats, Ints]], *, resolution: int) -> list[F
     share = (uv - lower[chart][:, None]) / np.maximum(upper - lower, SMALLEST)[chart][:, None]
     placed = corner[chart][:, None] + share[..., :1] * right[chart][:, None]
     placed = placed + share[..., 1:] * up[chart][:, None]
-    placed = np.round(np.clip(placed, 0.0, 1.0), UV_DECIMALS)
+    placed = np.round(np.clip(placed, 0.0, 1.0), ATLAS_DECIMALS)
     return np.split(placed, np.cumsum([len(own) for own in flat])[:-1])
 
 
