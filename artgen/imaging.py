@@ -14,7 +14,7 @@ from artgen.core.mesh import Floats
 Bytes = NDArray[np.uint8]
 Singles = NDArray[np.float32]
 
-SHOULDER = 0.75
+SHOULDER = 0.6
 """Linear radiance above which `display` bends towards white."""
 
 

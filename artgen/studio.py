@@ -64,19 +64,19 @@ def portrait_rig(*, center: Sequence[float] | Floats, radius: float) -> LightRig
     """The rig of every thumbnail."""
     boxes = (
         Softbox(
-            azimuth=math.radians(-40), elevation=math.radians(48), distance=4, side=2.4, white=0.8
+            azimuth=math.radians(-42), elevation=math.radians(46), distance=4, side=2.4, white=0.62
         ),
         Softbox(
-            azimuth=math.radians(65), elevation=math.radians(18), distance=4, side=2.6, white=0.22
+            azimuth=math.radians(38), elevation=math.radians(14), distance=4, side=2.6, white=0.34
         ),
         Softbox(
-            azimuth=math.radians(165), elevation=math.radians(50), distance=4, side=2.0, white=0.6
+            azimuth=math.radians(165), elevation=math.radians(45), distance=4, side=2.0, white=0.4
         ),
     )
     return LightRig(
         name="portrait",
         lights=tuple(softbox_light(box, center=center, radius=radius) for box in boxes),
-        sky=soft_sky(0.28, floor=0.5),
+        sky=soft_sky(0.26, floor=0.6),
     )
 
 
