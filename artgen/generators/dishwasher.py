@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from artgen.articulation.types import Draft, DraftPart, Joint, Limit, Precondition
 from artgen.core.surface import SurfaceSpec
@@ -56,8 +57,18 @@ def build(p: DishwasherParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
 
 
 def matched(p: DishwasherParams, surfaces: Mapping[str, SurfaceSpec]) -> dict[str, SurfaceSpec]:
-    """Surfaces by role; enamel fronts have sides and a top of the same paint."""
-    return dict(surfaces)
+    """Surfaces by role: painted fronts have sides and worktop of their paint, built-in machines
+    bare sheet sides, and half of the enamel doors a fascia of their own color."""
+    looks = dict(surfaces)
+    painted = looks["front"].metallic < 0.5
+    if not p.has_worktop:
+        looks["side"] = replace(looks["metal"], name="side")
+    elif painted:
+        looks["side"] = replace(looks["front"], name="side")
+        looks["worktop"] = replace(looks["front"], name="worktop")
+    if painted and p.plain_fascia and not p.has_furniture_panel:
+        looks["fascia"] = replace(looks["front"], name="fascia")
+    return looks
 
 
 def used(surfaces: tuple[SurfaceSpec, ...], parts: list[DraftPart]) -> tuple[SurfaceSpec, ...]:

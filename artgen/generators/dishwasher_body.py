@@ -76,7 +76,6 @@ def base(p: DishwasherParams, at: Layout, surfaces: dict[str, SurfaceSpec]) -> D
             solid=kick_plate(cabinet, thickness=0.006, slots=p.slots),
             surface="kick",
             density=0.4 * ABS,
-            edge=0.0008,
         ),
         Body(solid=union(feet(cabinet, radius=FOOT)), surface="kick", density=POLYPROPYLENE),
     ]
@@ -106,9 +105,9 @@ def _seal(p: DishwasherParams, at: Layout, rubber: SurfaceSpec) -> Body:
     return opening_gasket(
         left=-tub.half_width - 0.003,
         right=tub.half_width + 0.003,
-        bottom=tub.floor - 0.003,
+        bottom=tub.floor + 0.004,
         top=tub.ceiling + 0.003,
-        corner=0.6 * tub.corner,
+        corner=tub.corner,
         width=room,
         thickness=SEAL,
         front=0.0,
@@ -160,7 +159,6 @@ def _arm(at: Layout, *, name: str, z: float, blades: int, rise: float) -> DraftP
         solid=solid.at(x, y, z),
         surface="arm",
         density=0.55 * ABS,  # hollow
-        edge=0.0015,
         collision=tuple(piece.at(x, y, z) for piece in boxes),
     )
     return DraftPart(name=name, label="spray_arm", bodies=(body,))

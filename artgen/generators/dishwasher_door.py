@@ -24,6 +24,7 @@ from artgen.generators.kit.drop_door import (
     detergent_dispenser,
     inner_body,
     pins,
+    wrapped_panel,
 )
 from artgen.generators.kit.gasket import lip_seal
 from artgen.geometry.solid import Solid, slab, union
@@ -35,6 +36,8 @@ INSIDES = 3.4
 """kg/m2; sheet frame, insulation, wiring and latch between liner and panel."""
 DISH = 0.011
 """m; depth of the liner's dish."""
+RETURN = 0.002
+"""m; thickness as drawn of the outer sheet where it wraps around the door's sides."""
 SEAM = 0.0016
 """m; open joint between control panel and door panel."""
 CAP = 0.014
@@ -52,7 +55,9 @@ def door(
     cuts, fittings = _handle(p, at)
     liner_top = d.top - (CAP if p.hidden_console else 0.0)
     dish = (at.tub.half_width - 0.040, at.track + 0.045, at.tub.ceiling - 0.045)
-    liner = _less(inner_body(d, top=liner_top, dish=dish, depth=DISH), cuts)
+    narrowed = 0.0 if p.has_furniture_panel else RETURN
+    inner = inner_body(d, top=liner_top, dish=dish, depth=DISH, narrowed=narrowed)
+    liner = _less(inner, cuts)
     panel = _panel(p, at, cuts)
     console, own = _console(p, at, surfaces, cuts)
     bodies = (
@@ -86,7 +91,10 @@ def _panel(p: DishwasherParams, at: Layout, cuts: tuple[Solid, ...]) -> Body:
     """The outer panel below the controls: formed sheet, or a furniture front."""
     d = at.door
     top = at.fascia_bottom - (0.0 if p.hidden_console else SEAM)
-    solid = slab((-d.half_width, d.outer, d.skin_bottom), (d.half_width, d.seam, top))
+    if p.has_furniture_panel:
+        solid = slab((-d.half_width, d.outer, d.skin_bottom), (d.half_width, d.seam, top))
+    else:
+        solid = wrapped_panel(d, top=top, sheet=RETURN, edge=0.012)
     collision = slab((-d.half_width, d.outer, d.skin_bottom), (d.half_width, d.seam, d.top))
     furniture = p.has_furniture_panel
     return Body(
@@ -165,8 +173,8 @@ def _handle(p: DishwasherParams, at: Layout) -> tuple[tuple[Solid, ...], tuple[B
         room, cup = pocket_room(
             half_length=0.62 * half,
             y=d.outer,
-            low=below - 0.064,
-            high=below - 0.014,
+            low=below - 0.068,
+            high=below - 0.018,
             depth=d.skin + 0.014,
             wall=0.0022,
         )

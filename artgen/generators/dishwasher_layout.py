@@ -30,7 +30,8 @@ class DishwasherParams:
     """Numbers of one dishwasher; lengths in m.
 
     Attributes:
-        form: `freestanding`, `built_under`, `semi_integrated` or `integrated`.
+        form: `freestanding`; or without worktop: `built_under`, `top_control` (a sheet front without
+            fascia), `semi_integrated` (furniture below a fascia), `integrated` (furniture alone).
         slim: 0.45 m class; else 0.60 m.
         play: what the class width is undercut by.
         height: floor to worktop; built-in forms are UNDERCOUNTER lower.
@@ -42,6 +43,7 @@ class DishwasherParams:
         drop: how far the door's outer panel hangs below the pin.
         worktop: thickness.
         fascia: height of the control panel.
+        plain_fascia: whether a painted front's control panel has the same paint.
         wall: between the cabinet's outside and the tub.
         corner: radius of the tub's upper corners.
         beads: embossed in each side wall.
@@ -81,6 +83,7 @@ class DishwasherParams:
     drop: float
     worktop: float
     fascia: float
+    plain_fascia: bool
     wall: float
     corner: float
     beads: int
@@ -125,7 +128,7 @@ class DishwasherParams:
     @property
     def hidden_console(self) -> bool:
         """Controls on the door's upper edge."""
-        return self.form == "integrated"
+        return self.form in ("integrated", "top_control")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -62,7 +62,7 @@ def tray_basket(p: DishwasherParams, at: Layout) -> WireBasket:
         rim_front=floor + 0.044,
         rim_back=floor + 0.044,
         radius=0.85 * p.wire,
-        lengthwise=_count(2 * rack.half_width, 0.8 * p.pitch),
+        lengthwise=_count(2 * rack.half_width, 0.9 * p.pitch),
         crosswise=5,
         belts=0,
     )
@@ -158,7 +158,8 @@ def _grip(basket: WireBasket) -> Body:
 def upper_rack(p: DishwasherParams, at: Layout) -> DraftPart:
     """The rack on rails: pins for cups, cup shelves, the feed pipe of the spray arm below it."""
     basket = upper_basket(p, at)
-    rows = [float(basket.lanes[k]) for k in _spread(len(basket.lanes), 2)]
+    third = round(len(basket.lanes) / 3)
+    rows = [float(basket.lanes[third]), float(basket.lanes[-1 - third])]
     ys = ((basket.rungs[1:] + basket.rungs[:-1]) / 2.0)[1:-1]
     pins = tines(basket, rows, [float(y) for y in ys], height=0.045, lean=0.006)
     plastic = [*_rail_bars(at, basket, rail_height(basket)), *_shelves(p, basket), *_feed(at)]
@@ -191,7 +192,7 @@ def _rail_bars(at: Layout, basket: WireBasket, z: float) -> list[Solid]:
 def _shelves(p: DishwasherParams, basket: WireBasket) -> list[Solid]:
     """Cup shelves inside the side walls, hung at half height."""
     length = 0.62 * (basket.back - basket.front)
-    shelf = cup_shelf(length=length, width=0.092, thickness=0.004, bars=9)
+    shelf = cup_shelf(length=length, width=0.092, thickness=0.004, bars=7)
     y, z = basket.front + 0.56 * (basket.back - basket.front), basket.floor + 0.078
     x = -basket.half_width + 4.2 * basket.radius
     left = shelf.turned("y", 0.10).at(x, y, z)
@@ -212,9 +213,9 @@ def cutlery_tray(p: DishwasherParams, at: Layout) -> DraftPart:
     """The shallow third rack with toothed rails for cutlery."""
     basket = tray_basket(p, at)
     width = 2.0 * (basket.half_width - basket.inset - 0.012)
-    comb = cutlery_comb(length=0.030, width=width, height=0.019, teeth=14 if p.slim else 20)
+    comb = cutlery_comb(length=0.030, width=width, height=0.019, teeth=7 if p.slim else 10)
     rest = basket.top_of_floor(0.0)
-    combs = [comb.at(0.0, y, rest) for y in np.linspace(basket.front + 0.1, basket.back - 0.1, 3)]
+    combs = [comb.at(0.0, y, rest) for y in np.linspace(basket.front + 0.11, basket.back - 0.11, 2)]
     bodies = (
         _wired(basket_wires(basket), "rack_wire", basket),
         _plastic([*_rail_bars(at, basket, rail_height(basket)), *combs], "rack_plastic"),

@@ -98,7 +98,8 @@ def test_names_say_what_parts_are(category: str, index: int) -> None:
 
 
 def movers(obj: ArticulatedObject) -> list[Joint]:
-    return [joint for joint in obj.joints if joint.mimic is None]
+    """Joints that open; one without limits (a spray arm, a wheel) has no closed end."""
+    return [joint for joint in obj.joints if joint.mimic is None and joint.limit is not None]
 
 
 @every_asset

@@ -78,8 +78,8 @@ def feet(cabinet: Cabinet, *, radius: float) -> list[Solid]:
     return [
         union(
             [
-                cylinder(radius, pad, segments=16).at(u, v),
-                cylinder(0.4 * radius, c.foot + 0.004 - pad, segments=8).at(u, v, pad),
+                cylinder(radius, pad, segments=12).at(u, v),
+                cylinder(0.4 * radius, c.foot + 0.004 - pad, segments=6).at(u, v, pad),
             ]
         )
         for u in (-x, x)

@@ -112,7 +112,7 @@ def console_controls(
     if style.style != "touch":
         round_one = prism(circle(0.5 * layout.power.size[0], segments=16), 0.0022)
         keys = [_at(round_one, layout.power), *(_key(spot) for spot in layout.buttons)]
-        bodies += [_control(plane, key, trim, edge=0.0004) for key in keys]
+        bodies += [_control(plane, key, trim, edge=0.0) for key in keys]
     if layout.knob is not None:
         bodies.append(_control(plane, _knob(layout.knob), trim, edge=0.0005))
     if layout.display is not None:

@@ -53,7 +53,12 @@ class DropDoor:
 
 
 def inner_body(
-    door: DropDoor, *, top: float, dish: tuple[float, float, float], depth: float
+    door: DropDoor,
+    *,
+    top: float,
+    dish: tuple[float, float, float],
+    depth: float,
+    narrowed: float,
 ) -> Solid:
     """The liner: a block with a flat border for seal and wheels, dished inside, notched for the ears.
 
@@ -61,10 +66,25 @@ def inner_body(
         top: z of its upper edge.
         dish: half width, lower and upper z of the dish, m.
         depth: of the dish.
+        narrowed: what each side leaves to the outer panel's returns.
     """
-    block = slab((-door.half_width, door.seam, door.bottom), (door.half_width, door.inner, top))
+    reach = door.half_width - narrowed
+    block = slab((-reach, door.seam, door.bottom), (reach, door.inner, top))
     half, low, high = dish
     return block - _dish(door, half, low, high, depth) - notches(door)
+
+
+def wrapped_panel(door: DropDoor, *, top: float, sheet: float, edge: float) -> Solid:
+    """The outer panel of formed sheet, whose sides return over the inner body up to `edge` m before
+    its inner face."""
+    panel = slab(
+        (-door.half_width, door.outer, door.skin_bottom), (door.half_width, door.seam, top)
+    )
+    side = slab(
+        (door.half_width - sheet, door.seam - 0.001, door.bottom),
+        (door.half_width, door.inner - edge, top),
+    )
+    return union([panel, side, side.mirrored("x")])
 
 
 def _dish(door: DropDoor, half: float, low: float, high: float, depth: float) -> Solid:

@@ -21,7 +21,9 @@ def opening_gasket(
     front: float,
     surface: SurfaceSpec,
 ) -> Body:
-    """A soft frame around an opening in the plane y = `front`, sticking out towards -y.
+    """A soft strip along sides and top of an opening in the plane y = `front`, towards -y.
+
+    Its feet stand on the opening's lower edge, where the door's own lip seals.
 
     Args:
         left: x of the opening's left edge, m.
@@ -33,16 +35,17 @@ def opening_gasket(
         thickness: how far it stands out.
         front: y of the plane that it lies on.
     """
-    width_x, height = right - left, top - bottom
+    low = bottom - corner - 2.0 * width  # the frame's lower corners, to be cut away
+    width_x, height = right - left, top - low
     inner = rounded_rectangle(height, width_x, corner)
     outer = rounded_rectangle(height + 2 * width, width_x + 2 * width, corner + width)
-    middle = np.array([(bottom + top) / 2.0, (left + right) / 2.0])  # a drawing of (z, x)
+    middle = np.array([(low + top) / 2.0, (left + right) / 2.0])  # a drawing of (z, x)
     ring = upright(prism(outer + middle, thickness, holes=[inner + middle]), "y")
+    below = slab((left - 1.0, -1.0, bottom - 1.0), (right + 1.0, 1.0, bottom))
     return Body(
-        solid=ring.at(y=front - thickness),
+        solid=ring.at(y=front - thickness) - below,
         surface=surface.name,
         density=RUBBER,
-        edge=min(0.35 * thickness, 0.25 * width),
     )
 
 

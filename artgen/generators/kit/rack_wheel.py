@@ -18,7 +18,7 @@ def rack_wheel(
         outer: x of the roller's outer face.
         mount: x of the rack's outermost wires, where the bracket begins.
     """
-    tread = cylinder(radius, outer - x - 0.0015, axis="x", segments=14).at(x, y, z)
+    tread = cylinder(radius, outer - x - 0.0015, axis="x", segments=12).at(x, y, z)
     cap = cylinder(0.45 * radius, 0.0015, axis="x", segments=8).at(outer - 0.0015, y, z)
     neck = slab((mount, y - 0.45 * radius, z - 0.45 * radius), (x, y + 0.45 * radius, z + 0.034))
     return [union([tread, cap, neck])]

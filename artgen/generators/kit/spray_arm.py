@@ -8,7 +8,7 @@ from artgen.core.mesh import Floats
 from artgen.geometry.profile import arc
 from artgen.geometry.solid import Solid, box, cylinder, prism, union
 
-NOZZLES = 3
+NOZZLES = 2
 """On each blade."""
 
 
@@ -23,13 +23,13 @@ def spray_arm(*, reach: float, blades: int, thickness: float, hub: float, rise: 
         rise: from the blades' upper side to the hub's top.
     """
     blade = prism(_blade(reach, hub), thickness)
-    places = np.linspace(0.35, 0.92, NOZZLES) * reach
+    places = np.linspace(0.5, 0.88, NOZZLES) * reach
     nozzles = [
-        cylinder(0.0035, 0.0012, segments=6).at(float(x), 0.0, thickness - 0.0001) for x in places
+        cylinder(0.0035, 0.0012, segments=5).at(float(x), 0.0, thickness - 0.0001) for x in places
     ]
     one = union([blade, *nozzles])
     turned = [one.turned("z", 2.0 * math.pi * k / blades) for k in range(blades)]
-    return union([*turned, cylinder(hub, thickness + rise, segments=20)])
+    return union([*turned, cylinder(hub, thickness + rise, segments=16)])
 
 
 def _blade(reach: float, hub: float) -> Floats:

@@ -50,7 +50,9 @@ def tub_section(tub: Tub, grown: float = 0.0) -> np.ndarray:
     """Outline of the cavity in (z, x), pushed outwards by `grown` m."""
     height, width = tub.ceiling - tub.floor, 2.0 * tub.half_width
     low, high = FLOOR_CORNER + grown, tub.corner + grown
-    shape = rounded_rectangle(height + 2 * grown, width + 2 * grown, (low, high, high, low))
+    shape = rounded_rectangle(
+        height + 2 * grown, width + 2 * grown, (low, high, high, low), segments=4
+    )
     return np.asarray(shape + [(tub.floor + tub.ceiling) / 2.0, 0.0])
 
 
@@ -65,7 +67,7 @@ def tub_solid(tub: Tub, *, flange: Solid) -> Solid:
         (tub.half_width - 0.02, tub.depth - 0.03, tub.floor - 0.5 * tub.wall),
     )
     solid = ((shell | pan) - cavity - _slope(tub)) - cylinder(
-        SUMP_RADIUS, SUMP_DROP + 0.02, segments=28
+        SUMP_RADIUS, SUMP_DROP + 0.02, segments=20
     ).at(x, y, tub.floor - SUMP_DROP - 0.02)
     return union([solid, flange - mouth, *_beads(tub)])
 
@@ -74,7 +76,7 @@ def _slope(tub: Tub) -> Solid:
     x, y = tub.sump
     reach = tub.half_width - 0.058
     rim = [(u, v, tub.floor + 0.001) for u in (-reach, reach) for v in (0.06, tub.depth - 0.05)]
-    low = circle(SUMP_RADIUS + 0.004, segments=28) + (x, y)
+    low = circle(SUMP_RADIUS + 0.004, segments=20) + (x, y)
     return hull([*rim, *((u, v, tub.floor - SUMP_DROP) for u, v in low)])
 
 
@@ -94,7 +96,7 @@ def _beads(tub: Tub) -> list[Solid]:
             right = slab((near, 0.05, z - 0.012), (far, tub.depth - 0.05, z + 0.012))
         made += [right, right.mirrored("x")]
     middle = (tub.floor + tub.ceiling) / 2.0
-    disc = tube(0.30 * x, 0.22 * x, EMBOSSING + sunk, axis="y", segments=28)
+    disc = tube(0.30 * x, 0.22 * x, EMBOSSING + sunk, axis="y", segments=20)
     return [*made, disc.at(0.0, tub.depth - EMBOSSING, middle)]
 
 

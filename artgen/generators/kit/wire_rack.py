@@ -178,9 +178,8 @@ def _crosswise(b: WireBasket, y: float, reach: float) -> list[tuple[float, float
 def tines(
     basket: WireBasket, xs: Sequence[float], ys: Sequence[float], *, height: float, lean: float
 ) -> list[Solid]:
-    """Upright pins on the lower floor layer at every (x, y), tips leaning `lean` m to the back."""
-    rise = np.array([(0.0, 0.0, 0.0), (0.0, 0.15 * lean, 0.55 * height), (0.0, lean, height)])
-    pin = wire(rise, 0.9 * basket.radius, sides=SIDES)
+    """Square pins on the lower floor layer at every (x, y), tips leaning `lean` m to the back."""
+    pin = wire([(0.0, 0.0, 0.0), (0.0, lean, height)], 0.9 * basket.radius, sides=4)
     return [pin.at(x, y, basket.ground(x) + 1.15 * basket.radius) for x in xs for y in ys]
 
 
