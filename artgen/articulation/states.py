@@ -12,6 +12,9 @@ from artgen.core.stream import Stream
 REST_CHANCE = 0.15
 """Share of joints that a drawn state leaves closed, so that a model sees parts that do not move."""
 
+CLEARED = 0.5
+"""Share of barred joints whose way is cleared rather than closed again."""
+
 
 def travel(joint: Joint) -> tuple[float, float]:
     """(lower, upper) in rad or m; a continuous joint has one turn."""
@@ -23,9 +26,20 @@ def travel(joint: Joint) -> tuple[float, float]:
 def sample_state(
     joints: Sequence[Joint], preconditions: Sequence[Precondition], stream: Stream
 ) -> dict[str, float]:
-    """q of every free joint: at rest or evenly over its travel, and at rest where a precondition
-    bars it."""
+    """q of every free joint, preconditions obeyed.
+
+    A joint is at rest or evenly over its travel. Where a precondition bars a joint that was drawn
+    open, half of the time its way is cleared (the joint it requires opens far enough), otherwise it
+    goes back to rest: racks would move in one state of a hundred if doors were left to chance.
+    """
     q = {joint.name: _drawn(joint, stream) for joint in joints if joint.mimic is None}
+    uppers = {joint.name: travel(joint)[1] for joint in joints}
+    for _ in preconditions:
+        for rule in preconditions:
+            clear, share = stream.child(rule.joint, "way").generator().random(2)
+            if q[rule.joint] != 0.0 and q[rule.requires] < rule.at_least and clear < CLEARED:
+                room = uppers[rule.requires] - rule.at_least
+                q[rule.requires] = rule.at_least + float(share) * room
     return obeying(preconditions, q)
 
 
