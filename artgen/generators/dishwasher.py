@@ -21,7 +21,7 @@ DOOR_LIMIT = 4.8
 
 
 def build(p: DishwasherParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
-    """At rest the door is shut and the racks are in; the door falls forward, then racks slide out."""
+    """At rest the door is shut, the racks are in; the door falls forward, then racks slide out."""
     at = layout(p)
     looks = matched(p, surfaces)
     door_part, own = door(p, at, looks)

@@ -30,8 +30,9 @@ class DishwasherParams:
     """Numbers of one dishwasher; lengths in m.
 
     Attributes:
-        form: `freestanding`; or without worktop: `built_under`, `top_control` (a sheet front without
-            fascia), `semi_integrated` (furniture below a fascia), `integrated` (furniture alone).
+        form: `freestanding`; or without worktop: `built_under`, `top_control` (a sheet front
+            without fascia), `semi_integrated` (furniture below a fascia), `integrated`
+            (furniture alone).
         slim: 0.45 m class; else 0.60 m.
         play: what the class width is undercut by.
         height: floor to worktop; built-in forms are UNDERCOUNTER lower.

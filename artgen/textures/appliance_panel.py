@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from artgen.core.stream import Stream
 from artgen.core.surface import SurfaceSpec
-from artgen.textures.draw import Point, Sheet
+from artgen.textures.draw import Anchor, Point, Sheet
 from artgen.textures.icons import draw_icon
 from artgen.textures.images import TextureSet
 from artgen.textures.noise import smooth
@@ -91,7 +92,8 @@ def appliance_panel(spec: SurfaceSpec) -> TextureSet:
         _print_dial(sheet, layout.knob, height, ink)
     image = sheet.image()
     if spec.detail["brushed"]:
-        streaks = smooth(np.random.default_rng(7), (image.shape[0], 12), image.shape[:2])
+        shape = (image.shape[0], image.shape[1])
+        streaks = smooth(Stream(1, "appliance_panel").generator(), (shape[0], 12), shape)
         image = np.clip(image * (1.0 + 0.025 * streaks[..., None]), 0, 255).astype(np.uint8)
     return TextureSet(color=image)
 
@@ -135,7 +137,7 @@ def _print_dial(sheet: Sheet, knob: Spot, height: float, ink: str) -> None:
         start = (x + side * (reach + 0.004), y + 0.8 * level)
         stop = (x + side * (reach + 0.010), y + level)
         sheet.line([start, stop], fill=ink, width=0.0008)
-        anchor = "right" if side < 0 else "left"
+        anchor: Anchor = "right" if side < 0 else "left"
         sheet.text((stop[0] + side * 0.003, stop[1]), name, height=cap, fill=ink, anchor=anchor)
 
 

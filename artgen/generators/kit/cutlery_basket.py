@@ -1,7 +1,15 @@
 """Baskets and trays for cutlery."""
 
+import numpy as np
+
+from artgen.core.mesh import Floats
 from artgen.geometry.profile import rectangle
 from artgen.geometry.solid import Solid, prism, slab, union, upright
+
+
+def shifted(outline: Floats, x: float, y: float) -> Floats:
+    """An (N, 2) outline moved."""
+    return outline + np.array([x, y])
 
 
 def cutlery_basket(*, length: float, width: float, height: float, cells: int) -> Solid:
@@ -11,8 +19,8 @@ def cutlery_basket(*, length: float, width: float, height: float, cells: int) ->
     bars = max(3, 2 * cells)
     pitch = (length - 2 * t) / bars
     slot = rectangle(pitch - 0.005, height - 0.022)
-    holes = [slot + [(k - (bars - 1) / 2.0) * pitch, height / 2.0] for k in range(bars)]
-    outline = rectangle(length, height) + [0.0, height / 2.0]
+    holes = [shifted(slot, (k - (bars - 1) / 2.0) * pitch, height / 2.0) for k in range(bars)]
+    outline = shifted(rectangle(length, height), 0.0, height / 2.0)
     wall = upright(prism(outline, t, holes=holes), "x")
     ends = [slab((-side + t, y, 0.0), (side - t, y + t, 0.75 * height)) for y in (-half, half - t)]
     inner = [
@@ -38,8 +46,8 @@ def cup_shelf(*, length: float, width: float, thickness: float, bars: int) -> So
     """A slotted shelf, long along y, from x = 0 to `width`, its underside at z = 0."""
     pitch = (length - 0.012) / bars
     slot = rectangle(0.72 * width, pitch - 0.006)
-    holes = [slot + [0.48 * width, (k - (bars - 1) / 2.0) * pitch] for k in range(bars)]
-    outline = rectangle(width, length) + [width / 2.0, 0.0]
+    holes = [shifted(slot, 0.48 * width, (k - (bars - 1) / 2.0) * pitch) for k in range(bars)]
+    outline = shifted(rectangle(width, length), width / 2.0, 0.0)
     return prism(outline, thickness, holes=holes)
 
 

@@ -60,7 +60,7 @@ def inner_body(
     depth: float,
     narrowed: float,
 ) -> Solid:
-    """The liner: a block with a flat border for seal and wheels, dished inside, notched for the ears.
+    """The liner: flat border for seal and wheels, dished inside, notched for the hinge ears.
 
     Args:
         top: z of its upper edge.
@@ -75,8 +75,7 @@ def inner_body(
 
 
 def wrapped_panel(door: DropDoor, *, top: float, sheet: float, edge: float) -> Solid:
-    """The outer panel of formed sheet, whose sides return over the inner body up to `edge` m before
-    its inner face."""
+    """The outer panel of formed sheet; its sides return to `edge` m before the inner face."""
     panel = slab(
         (-door.half_width, door.outer, door.skin_bottom), (door.half_width, door.seam, top)
     )
@@ -97,7 +96,7 @@ def _dish(door: DropDoor, half: float, low: float, high: float, depth: float) ->
 
 
 def notches(door: DropDoor) -> Solid:
-    """Room for both ears at every angle of the door: they come in from behind and turn downwards."""
+    """Room for both ears at every angle: they come in from behind and turn downwards."""
     y, z = door.pivot
     half = (EAR + 0.004) / 2.0
     low, high = (y - NOTCH, door.bottom - 0.01), (door.inner + 0.01, z + NOTCH)

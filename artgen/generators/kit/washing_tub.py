@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from artgen.core.mesh import Floats
 from artgen.geometry.profile import circle, rounded_rectangle
 from artgen.geometry.solid import Solid, box, cylinder, hull, prism, slab, tube, union, upright
 
@@ -46,14 +47,14 @@ class Tub:
         return 0.0, 0.52 * self.depth
 
 
-def tub_section(tub: Tub, grown: float = 0.0) -> np.ndarray:
+def tub_section(tub: Tub, grown: float = 0.0) -> Floats:
     """Outline of the cavity in (z, x), pushed outwards by `grown` m."""
     height, width = tub.ceiling - tub.floor, 2.0 * tub.half_width
     low, high = FLOOR_CORNER + grown, tub.corner + grown
     shape = rounded_rectangle(
         height + 2 * grown, width + 2 * grown, (low, high, high, low), segments=4
     )
-    return np.asarray(shape + [(tub.floor + tub.ceiling) / 2.0, 0.0])
+    return np.asarray(shape + np.array([(tub.floor + tub.ceiling) / 2.0, 0.0]))
 
 
 def tub_solid(tub: Tub, *, flange: Solid) -> Solid:
@@ -76,7 +77,7 @@ def _slope(tub: Tub) -> Solid:
     x, y = tub.sump
     reach = tub.half_width - 0.058
     rim = [(u, v, tub.floor + 0.001) for u in (-reach, reach) for v in (0.06, tub.depth - 0.05)]
-    low = circle(SUMP_RADIUS + 0.004, segments=20) + (x, y)
+    low = circle(SUMP_RADIUS + 0.004, segments=20) + np.array([x, y])
     return hull([*rim, *((u, v, tub.floor - SUMP_DROP) for u, v in low)])
 
 
