@@ -1,7 +1,8 @@
 """UsdPhysics joints: axes along ours, limits in the degrees that USD wants, drives as dampers.
 
-UsdPhysics has no dry friction, effort, speed or coupling; friction goes into MuJoCo's published
-`mjc:frictionloss`, the rest into `artgen:` attributes in SI units.
+UsdPhysics has no dry friction, coupling, effort or speed. Friction is stated in the published
+schemas of MuJoCo (`mjc:frictionloss`) and Newton (`newton:friction`), a coupling in Newton's and
+exactly in `artgen:` attributes, effort and speed in `artgen:` attributes, in SI units.
 """
 
 import json
@@ -22,6 +23,7 @@ from artgen.export.principal import matrix_from_quaternion, rotation_between
 AXES = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 FIXED = "base_to_world"
 DEGREE = math.pi / 180.0
+FLOAT, DOUBLE = Sdf.ValueTypeNames.Float, Sdf.ValueTypeNames.Double
 
 
 def add_base_joint(stage: Usd.Stage, scope: Sdf.Path, base: Sdf.Path) -> None:
@@ -55,7 +57,7 @@ def add_joint(
         made.CreateLowerLimitAttr(joint.limit.lower / unit)
         made.CreateUpperLimitAttr(joint.limit.upper / unit)
     _add_drive(made.GetPrim(), joint, unit)
-    _add_facts(made.GetPrim(), joint, preconditions)
+    _add_facts(made.GetPrim(), joint, unit, preconditions)
 
 
 def axis_frame(axis: Iterable[float]) -> tuple[str, Gf.Quatf]:
@@ -78,23 +80,38 @@ def _add_drive(prim: Usd.Prim, joint: Joint, unit: float) -> None:
     drive.CreateTargetPositionAttr(0.0 if spring is None else spring.reference / unit)
 
 
-def _add_facts(prim: Usd.Prim, joint: Joint, preconditions: Iterable[Precondition]) -> None:
+def _add_facts(
+    prim: Usd.Prim, joint: Joint, unit: float, preconditions: Iterable[Precondition]
+) -> None:
     numbers = {
         "mjc:frictionloss": joint.friction,
+        "newton:friction": joint.friction,
         "artgen:effort": joint.effort,
         "artgen:velocity": joint.velocity,
     }
     if joint.mimic is not None:
-        numbers["artgen:mimic:multiplier"] = joint.mimic.multiplier
-        numbers["artgen:mimic:offset"] = joint.mimic.offset
-        target = prim.GetParent().GetPath().AppendChild(joint.mimic.joint)
-        prim.CreateRelationship("artgen:mimic:joint").SetTargets([target])
+        numbers |= _mimic_numbers(joint.mimic, unit)
+        leader = prim.GetParent().GetPath().AppendChild(joint.mimic.joint)
+        for name in ("artgen:mimic:joint", "newton:mimicJoint"):
+            prim.CreateRelationship(name).SetTargets([leader])
+        prim.AddAppliedSchema("NewtonMimicAPI")
     for name, value in numbers.items():
-        prim.CreateAttribute(name, Sdf.ValueTypeNames.Double).Set(value)
+        # Newton's schema has single precision.
+        kind = FLOAT if name.startswith("newton:") else DOUBLE
+        prim.CreateAttribute(name, kind).Set(value)
     rules = [[r.requires, r.at_least] for r in preconditions if r.joint == joint.name]
     if rules:
         attribute = prim.CreateAttribute("artgen:requires", Sdf.ValueTypeNames.String)
         attribute.Set(json.dumps(rules))
+
+
+def _mimic_numbers(mimic: Mimic, unit: float) -> dict[str, float]:
+    return {
+        "artgen:mimic:multiplier": mimic.multiplier,
+        "artgen:mimic:offset": mimic.offset,
+        "newton:mimicCoef0": mimic.offset / unit,
+        "newton:mimicCoef1": mimic.multiplier,
+    }
 
 
 def load_kinematics(folder: Path) -> FileKinematics:
