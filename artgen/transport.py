@@ -25,7 +25,7 @@ def needed_transport(surfaces: Sequence[SurfaceSpec]) -> Transport:
         diffuse=3,
         glossy=3 if metal else 1,
         transmission=8 if len(glass) > len(panes) else 0,
-        transparent=8 if panes else 0,  # four panes, two faces each
+        transparent=8 if panes else 1,  # four panes, two faces each; 0 changes opaque scenes too
         clamp_indirect=10.0,
         panes=tuple(
             ThinGlass(
