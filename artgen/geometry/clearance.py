@@ -2,16 +2,26 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import manifold3d as m3
 import numpy as np
 from numpy.typing import NDArray
 
-from artgen.core.mesh import Floats, TriMesh
+from artgen.core.mesh import Floats, Ints, TriMesh
+from artgen.geometry.separation import Surface, carried, inverted_poses, may_meet, surface_of
 from artgen.geometry.solid import Solid
 
 NEGLIGIBLE = 1e-12
 """m3; two boxes that share less cannot hide an overlap worth reporting (0.1 mm cubed)."""
+WORTH_A_PROOF = 3000
+"""Triangles times poses from which proving separation is faster than the booleans."""
+
+
+WORTH_A_CUT = 5
+"""Poses from which cutting both bodies to where they can meet is faster than whole booleans."""
+MARGIN = 1e-3
+"""m; keeps the faces of the cut away from those of the other body."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -20,15 +30,28 @@ class Shape:
 
     Attributes:
         bodies: closed and outward, in any number.
-        points: (V, 3) their vertices, m, body after body.
+        triangles: (T, 3, 3) corners of each body's faces, m.
+        points: (V, 3) vertices of all bodies, m, body after body.
         starts: (B,) row of each body's first vertex.
         rest: (B, 2, 3) bounds of each body, m.
     """
 
     bodies: tuple[m3.Manifold, ...]
+    triangles: tuple[Floats, ...]
     points: Floats
     starts: NDArray[np.intp]
     rest: Floats
+
+    @cached_property
+    def surfaces(self) -> dict[int, Surface]:
+        """Sorted triangles by body, filled as `surface` is asked."""
+        return {}
+
+    def surface(self, body: int) -> Surface:
+        """A body's triangles, sorted for proofs of separation."""
+        if body not in self.surfaces:
+            self.surfaces[body] = surface_of(self.triangles[body])
+        return self.surfaces[body]
 
     def boxes(self, object_from_rest: Floats) -> Floats:
         """(K, B, 2, 3) bounds of each body under each of (K, 4, 4) poses."""
@@ -55,56 +78,61 @@ class Overlap:
 def shape_of_solids(solids: Iterable[Solid]) -> Shape:
     """One body a solid."""
     listed = list(solids)
-    points = [np.asarray(solid.manifold.to_mesh64().vert_properties)[:, :3] for solid in listed]
-    return _shape([solid.manifold for solid in listed], points)
+    meshes = [solid.trimesh() for solid in listed]
+    return _shape([solid.manifold for solid in listed], [(m.vertices, m.faces) for m in meshes])
 
 
 def shape_of_mesh(mesh: TriMesh) -> Shape:
     """One body for each number in `mesh.body`; bodies share no vertices and come in order.
 
-    A body that is not closed stays in the list with a status other than `NoError`, and never
-    overlaps.
+    A body that is not closed keeps its place with a status other than `NoError`; it never overlaps.
     """
-    manifolds, points = [], []
+    manifolds, arrays = [], []
     cuts = np.flatnonzero(np.diff(np.asarray(mesh.body))) + 1
     for faces in np.split(mesh.faces, cuts):
         first, last = int(faces.min()), int(faces.max()) + 1
         own = mesh.vertices[first:last].copy()  # manifold3d refuses read-only arrays.
         manifolds.append(m3.Manifold(m3.Mesh64(own, (faces - first).astype(np.uint64))))
-        points.append(own)
-    return _shape(manifolds, points)
+        arrays.append((own, faces - first))
+    return _shape(manifolds, arrays)
 
 
-def _shape(manifolds: Sequence[m3.Manifold], points: Sequence[Floats]) -> Shape:
-    starts = np.cumsum([0, *(len(p) for p in points[:-1])])
-    rest = np.array([(p.min(axis=0), p.max(axis=0)) for p in points])
-    return Shape(bodies=tuple(manifolds), points=np.concatenate(points), starts=starts, rest=rest)
+def _shape(manifolds: Sequence[m3.Manifold], meshes: Sequence[tuple[Floats, Ints]]) -> Shape:
+    points = [vertices for vertices, _ in meshes]
+    return Shape(
+        bodies=tuple(manifolds),
+        triangles=tuple(vertices[faces] for vertices, faces in meshes),
+        points=np.concatenate(points),
+        starts=np.cumsum([0, *(len(p) for p in points[:-1])]),
+        rest=np.array([(p.min(axis=0), p.max(axis=0)) for p in points]),
+    )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Mover:
-    """A shape on its way.
-
-    Attributes:
-        poses: (K, 4, 4) `object_from_rest`.
-        group: shapes of one group keep their relative pose, so their pairs are left out.
-    """
+    """A shape on its way; `poses` is (K, 4, 4) `object_from_rest`, a path without jumps."""
 
     name: str
     shape: Shape
     poses: Floats
-    group: int
 
 
-def overlaps(movers: Sequence[Mover]) -> Iterator[Overlap]:
-    """Every pair of different groups that interpenetrates, pose by pose, with the shared volume.
+def overlaps(
+    movers: Sequence[Mover], pairs: Iterable[tuple[int, int]] | None = None
+) -> Iterator[Overlap]:
+    """Pairs of movers (all if None) that interpenetrate, pose by pose, with the shared volume.
 
     Exact at the given poses: pairs of bodies are dropped only where their boxes, along the object's
-    axes or along those of either body at rest, share less than `NEGLIGIBLE`.
+    axes or along those of either body at rest, share less than `NEGLIGIBLE`, or where no triangles
+    can meet. A body inside another without touching it is found at the first pose, and stays inside
+    while no triangles meet.
     """
     owner = np.repeat(np.arange(len(movers)), [len(m.shape.bodies) for m in movers])
     boxes = np.concatenate([m.shape.boxes(m.poses) for m in movers], axis=1)
-    first, second = _meeting(boxes, np.array([m.group for m in movers])[owner])
+    wanted = np.zeros((len(movers), len(movers)), bool)
+    for i, j in _all_pairs(len(movers)) if pairs is None else pairs:
+        wanted[i, j] = True
+    first, second = _meeting(boxes, wanted[owner][:, owner])
     meeting = _shared(boxes[:, first], boxes[:, second]) > NEGLIGIBLE
     alive = meeting.any(axis=0)
     first, second, meeting = first[alive], second[alive], meeting[:, alive]
@@ -116,53 +144,72 @@ def overlaps(movers: Sequence[Mover]) -> Iterator[Overlap]:
         yield from _pair_overlaps(movers[i], movers[j], bodies, meeting[:, own])
 
 
-def _pair_overlaps(
-    a: Mover, b: Mover, bodies: NDArray[np.intp], meeting: NDArray[np.bool_]
-) -> Iterator[Overlap]:
-    """Overlaps of two movers; `bodies` is (P, 2), `meeting` the (K, P) poses where boxes meet."""
-    b_from_a = _inverted(b.poses) @ a.poses
-    box_a, box_b = a.shape.rest[bodies[:, 0]], b.shape.rest[bodies[:, 1]]
-    meeting = meeting & (_shared(_carried(b_from_a, box_a), box_b[None]) > NEGLIGIBLE)
-    meeting &= _shared(_carried(_inverted(b_from_a), box_b), box_a[None]) > NEGLIGIBLE
-    for pose in np.flatnonzero(meeting.any(axis=1)):
-        volume = sum(
-            float((a.shape.bodies[i].transform(b_from_a[pose, :3]) ^ b.shape.bodies[j]).volume())
-            for i, j in bodies[meeting[pose]].tolist()
-        )
-        if volume > 0.0:
-            yield Overlap(pose=int(pose), first=a.name, second=b.name, volume=volume)
+def _all_pairs(count: int) -> Iterator[tuple[int, int]]:
+    return ((i, j) for i in range(count) for j in range(i + 1, count))
 
 
-def _inverted(poses: Floats) -> Floats:
-    """(K, 4, 4) inverses of rigid poses."""
-    inverse = np.tile(np.eye(4), (len(poses), 1, 1))
-    inverse[:, :3, :3] = poses[:, :3, :3].transpose(0, 2, 1)
-    inverse[:, :3, 3] = -np.einsum("kij,kj->ki", inverse[:, :3, :3], poses[:, :3, 3])
-    return inverse
-
-
-def _carried(poses: Floats, boxes: Floats) -> Floats:
-    """(K, P, 2, 3) bounds of (P, 2, 3) boxes after each of (K, 4, 4) poses."""
-    middle, half = boxes.mean(axis=1), np.diff(boxes, axis=1)[:, 0] / 2.0
-    moved = np.einsum("kij,pj->kpi", poses[:, :3, :3], middle) + poses[:, None, :3, 3]
-    reach = np.einsum("kij,pj->kpi", np.abs(poses[:, :3, :3]), half)
-    return np.stack([moved - reach, moved + reach], axis=2)
-
-
-def _meeting(boxes: Floats, group: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Index pairs i < j of different groups whose boxes, taken over all poses, share a volume."""
+def _meeting(boxes: Floats, wanted: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Wanted index pairs whose boxes, taken over all poses, share a volume."""
     lower, upper = boxes[:, :, 0].min(axis=0), boxes[:, :, 1].max(axis=0)
-    meet = group[:, None] < group[None, :]
     for axis in range(3):
-        meet &= lower[:, None, axis] < upper[None, :, axis]
-        meet &= lower[None, :, axis] < upper[:, None, axis]
-    first, second = np.nonzero(meet)
+        wanted = wanted & (lower[:, None, axis] < upper[None, :, axis])
+        wanted &= lower[None, :, axis] < upper[:, None, axis]
+    first, second = np.nonzero(wanted)
     return first, second
 
 
 def _shared(first: Floats, second: Floats) -> Floats:
     """(..., ) m3 that boxes (..., 2, 3) share."""
-    depth = np.minimum(first[..., 1, :], second[..., 1, :]) - np.maximum(
-        first[..., 0, :], second[..., 0, :]
-    )
-    return np.asarray(depth.clip(min=0.0).prod(axis=-1))
+    upper = np.minimum(first[..., 1, :], second[..., 1, :])
+    lower = np.maximum(first[..., 0, :], second[..., 0, :])
+    return np.asarray((upper - lower).clip(min=0.0).prod(axis=-1))
+
+
+def _pair_overlaps(
+    a: Mover, b: Mover, bodies: NDArray[np.intp], meeting: NDArray[np.bool_]
+) -> Iterator[Overlap]:
+    """Overlaps of two movers; `bodies` is (P, 2), `meeting` the (K, P) poses where boxes meet."""
+    b_from_a = inverted_poses(b.poses) @ a.poses
+    box_a, box_b = a.shape.rest[bodies[:, 0]], b.shape.rest[bodies[:, 1]]
+    meeting = meeting & (_shared(carried(b_from_a, box_a), box_b[None]) > NEGLIGIBLE)
+    meeting &= _shared(carried(inverted_poses(b_from_a), box_b), box_a[None]) > NEGLIGIBLE
+    volumes = np.zeros(len(b_from_a))
+    for pair, (i, j) in enumerate(bodies.tolist()):
+        open_ = _unproven(a.shape, i, b.shape, j, b_from_a, meeting[:, pair])
+        volumes[open_] += _common(a.shape.bodies[i], b.shape.bodies[j], b_from_a[open_])
+    for pose in np.flatnonzero(volumes > 0.0).tolist():
+        yield Overlap(pose=pose, first=a.name, second=b.name, volume=float(volumes[pose]))
+
+
+def _common(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> list[float]:
+    """m3 that two bodies share at each of (K, 4, 4) poses."""
+    if len(other_from_one) >= WORTH_A_CUT:
+        one = _cut_to(one, carried(inverted_poses(other_from_one), _box(other)))
+        if one.is_empty():
+            return [0.0] * len(other_from_one)
+        other = _cut_to(other, carried(other_from_one, _box(one)))
+    return [float((one.transform(pose[:3]) ^ other).volume()) for pose in other_from_one]
+
+
+def _box(body: m3.Manifold) -> Floats:
+    """(1, 2, 3) bounds of a body, m."""
+    return np.array(body.bounding_box()).reshape(1, 2, 3)
+
+
+def _cut_to(body: m3.Manifold, path: Floats) -> m3.Manifold:
+    """The part of a body inside the bounds of (K, 1, 2, 3) boxes; what is outside meets none."""
+    lower, upper = path[:, 0, 0].min(axis=0) - MARGIN, path[:, 0, 1].max(axis=0) + MARGIN
+    return body ^ m3.Manifold.cube(upper - lower).translate(lower)
+
+
+def _unproven(
+    a: Shape, i: int, b: Shape, j: int, b_from_a: Floats, meeting: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(K,) poses of two bodies that only a boolean can decide."""
+    poses = np.flatnonzero(meeting)
+    if len(poses) * (len(a.triangles[i]) + len(b.triangles[j])) < WORTH_A_PROOF:
+        return meeting
+    open_ = meeting.copy()
+    open_[poses] = may_meet(a.surface(i), b.surface(j), b_from_a[poses])
+    open_[0] = meeting[0]  # one may be inside the other without touching it.
+    return open_

@@ -18,7 +18,8 @@ from artgen.validate.subject import Subject
 
 def readable(subject: Subject) -> Iterator[Finding]:
     """Visual OBJ and collision pieces can be read: finite vertices, triangles that name them."""
-    for label, mesh in {**subject.mesh_files, **subject.collision_files}.items():
+    read = (*subject.mesh_files.items(), *subject.collision_files.items())
+    for label, mesh in read:
         if isinstance(mesh, str):
             yield Finding(
                 check="mesh.readable",
@@ -125,7 +126,7 @@ def stated(subject: Subject) -> Iterator[Finding]:
             "triangles": (abs(len(mesh.faces) - part.triangles), 0),
             "bodies": (abs(int(mesh.body.max()) + 1 - part.bodies), 0),  # type: ignore[union-attr]
             "volume": (
-                abs(float(subject.volumes[part.name].sum()) - part.volume) / part.volume,
+                relative_difference(float(subject.volumes[part.name].sum()), part.volume),
                 bounds.INTEGRAL.value,
             ),
         }
@@ -138,6 +139,11 @@ def stated(subject: Subject) -> Iterator[Finding]:
                     bound=f"{what} within {bound:g} of the manifest's",
                     message="the OBJ is of another export; export the asset anew",
                 )
+
+
+def relative_difference(one: float, other: float) -> float:
+    """|one - other| over the larger of the two; 0 when equal."""
+    return 0.0 if one == other else abs(one - other) / max(abs(one), abs(other))
 
 
 def glb(subject: Subject) -> Iterator[Finding]:

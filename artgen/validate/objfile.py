@@ -8,14 +8,13 @@ import numpy as np
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, Ints, TriMesh
 
-NEEDED = (b"v", b"vt", b"f")
 BODY = b"\n# body "
 
 
 def read_triangles(path: Path) -> TriMesh:
     """The OBJ's vertices, triangles, texture coordinates (as `atlas`) and bodies.
 
-    Reads what artgen writes: blocks of `v`, `vt`, `vn`, then a comment a body and `f` lines of triangles.
+    Reads what artgen writes: blocks of `v`, `vt`, `vn`, then for each body a comment and its `f` lines.
 
     Raises:
         GeometryError: a block is missing, ragged, or holds what is not a number, or a face names a

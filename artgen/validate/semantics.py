@@ -128,17 +128,14 @@ def _pair_movers(subject: Subject, joint: Joint, sweep: Sweep) -> list[Mover]:
     bundle = subject.bundle
     poses = sweep_poses(bundle.parts[0].name, bundle.joints, sweep)
     return [
-        Mover(name=name, shape=subject.shapes[name], poses=poses[name], group=group)
-        for group, name in enumerate((joint.parent, joint.child))
+        Mover(name=name, shape=subject.shapes[name], poses=poses[name])
+        for name in (joint.parent, joint.child)
     ]
 
 
 def _crosses(pair: list[Mover], pose: int) -> bool:
     """Whether two movers overlap at one of their poses."""
-    at = [
-        Mover(name=m.name, shape=m.shape, poses=m.poses[pose : pose + 1], group=m.group)
-        for m in pair
-    ]
+    at = [Mover(name=m.name, shape=m.shape, poses=m.poses[pose : pose + 1]) for m in pair]
     return any(overlap.volume > bounds.OVERLAP.value for overlap in overlaps(at))
 
 

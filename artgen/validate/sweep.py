@@ -1,5 +1,6 @@
 """Poses that an object must survive, and what interpenetrates on the way."""
 
+import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -33,6 +34,12 @@ class Sweep:
             return "at rest"
         others = ", ".join(f"{name} = {q:.4g}" for name, q in state.items() if name != self.joint)
         return f"at {self.joint} = {state[self.joint]:.4g}" + (f" with {others}" if others else "")
+
+
+Pair = tuple[int, int]
+Between = Mapping[Pair, tuple[str, ...]]
+Course = tuple[Pair, tuple[tuple[float, ...], ...]]
+"""Two parts and the values that each joint between them takes."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,44 +90,73 @@ def crossings(
     preconditions: Sequence[Precondition],
     shapes: Mapping[str, Shape],
 ) -> Iterator[Crossing]:
-    """For each sweep and pair of parts, the pose at which they share most; parents included."""
-    for sweep in sweeps(joints, preconditions):
-        worst: dict[tuple[str, str], Overlap] = {}
-        for overlap in overlaps(_movers(base, joints, shapes, sweep)):
-            pair = (overlap.first, overlap.second)
-            if pair not in worst or overlap.volume > worst[pair].volume:
-                worst[pair] = overlap
-        for overlap in worst.values():
-            yield Crossing(sweep=sweep, overlap=overlap)
+    """For each sweep and pair of parts, the pose at which they share most; parents included.
 
-
-def _movers(
-    base: str, joints: Sequence[Joint], shapes: Mapping[str, Shape], sweep: Sweep
-) -> list[Mover]:
-    """Shapes with their poses over a sweep; those that move as one get one group.
-
-    At rest, and for joints held away from it, every pair must be looked at: each part is a group.
+    How two parts lie to each other depends on the joints between them alone. So a pair is looked at
+    once for each course of those joints; where they hold still, at one pose, and only if no course
+    has begun there.
     """
-    poses = sweep_poses(base, joints, sweep)
-    moving = _moved_by(sweep.joint, joints)
-    alone = not sweep.joint or len(sweep.states[0]) > 1
-    movers = []
-    for number, (name, shape) in enumerate(shapes.items()):
-        group = number if alone else moving.get(name, -1)
-        movers.append(Mover(name=name, shape=shape, poses=poses[name], group=group))
-    return movers
+    names = [base, *(joint.child for joint in joints)]
+    between = joints_between(base, joints)
+    listed = list(sweeps(joints, preconditions))
+    seen: set[Course] = set()
+    for chosen, stop in ((_moving, None), (_still, 1)):
+        for sweep in listed:
+            pairs = chosen(sweep, joints, between, seen)
+            if not pairs:
+                continue
+            poses = sweep_poses(base, joints, sweep)
+            movers = [Mover(name=n, shape=shapes[n], poses=poses[n][:stop]) for n in names]
+            worst: dict[tuple[str, str], Overlap] = {}
+            for overlap in overlaps(movers, pairs):
+                pair = (overlap.first, overlap.second)
+                if pair not in worst or overlap.volume > worst[pair].volume:
+                    worst[pair] = overlap
+            for overlap in worst.values():
+                yield Crossing(sweep=sweep, overlap=overlap)
 
 
-def _moved_by(name: str, joints: Sequence[Joint]) -> dict[str, int]:
-    """Part name to a number that parts share while joint `name` moves; absent ones stand still."""
-    groups: dict[str, int] = {}
-    for number, joint in enumerate(joints):
-        driven = joint.name == name or (joint.mimic is not None and joint.mimic.joint == name)
-        if driven:
-            groups[joint.child] = number
-        elif joint.parent in groups:
-            groups[joint.child] = groups[joint.parent]
-    return groups
+def joints_between(base: str, joints: Sequence[Joint]) -> Between:
+    """Names of the joints between each two parts; the base is 0, children follow as joints do."""
+    chains: dict[str, frozenset[str]] = {base: frozenset()}
+    for joint in joints:
+        chains[joint.child] = chains[joint.parent] | {joint.name}
+    numbered = list(enumerate(chains.values()))
+    pairs = itertools.combinations(numbered, 2)
+    return {(i, j): tuple(sorted(one ^ other)) for (i, one), (j, other) in pairs}
+
+
+def _moving(
+    sweep: Sweep, joints: Sequence[Joint], between: Between, seen: set[Course]
+) -> list[Pair]:
+    """Pairs whose relative pose changes over a sweep in a way not seen yet; marks them and where
+    they begin as seen."""
+    courses = _courses(sweep, joints)
+    still = {name for name, course in courses.items() if len(set(course)) == 1}
+    pairs = []
+    for pair, names in between.items():
+        course: Course = (pair, tuple(courses[name] for name in names))
+        if not still.issuperset(names) and course not in seen:
+            pairs.append(pair)
+            seen |= {course, (pair, tuple(courses[name][:1] for name in names))}
+    return pairs
+
+
+def _still(
+    sweep: Sweep, joints: Sequence[Joint], between: Between, seen: set[Course]
+) -> list[Pair]:
+    """Pairs whose relative pose at the first state is not seen yet; marks them as seen."""
+    courses = _courses(sweep, joints)
+    starts = {pair: (pair, tuple(courses[n][:1] for n in names)) for pair, names in between.items()}
+    pairs = [pair for pair, start in starts.items() if start not in seen]
+    seen |= set(starts.values())
+    return pairs
+
+
+def _courses(sweep: Sweep, joints: Sequence[Joint]) -> dict[str, tuple[float, ...]]:
+    """The value of each joint at each state."""
+    values = [resolved(joints, state) for state in sweep.states]
+    return {joint.name: tuple(q[joint.name] for q in values) for joint in joints}
 
 
 def sweep_poses(base: str, joints: Sequence[Joint], sweep: Sweep) -> dict[str, Floats]:
@@ -128,10 +164,21 @@ def sweep_poses(base: str, joints: Sequence[Joint], sweep: Sweep) -> dict[str, F
     first = forward_kinematics(base, joints, sweep.states[0])
     count = len(sweep.states)
     poses = {name: np.repeat(pose[None], count, axis=0) for name, pose in first.items()}
-    moving = _moved_by(sweep.joint, joints)
-    chain = [joint for joint in joints if joint.child in moving]
+    chain = _moved_by(sweep.joint, joints)
     for k, state in enumerate(sweep.states[1:], start=1):
         q = resolved(joints, state)
         for joint in chain:
             poses[joint.child][k] = poses[joint.parent][k] @ joint_motion(joint, q[joint.name])
     return poses
+
+
+def _moved_by(name: str, joints: Sequence[Joint]) -> list[Joint]:
+    """The joint itself, those that follow it, and all below them, parents first."""
+    moving: set[str] = set()
+    chain = []
+    for joint in joints:
+        follows = joint.mimic is not None and joint.mimic.joint == name
+        if joint.name == name or follows or joint.parent in moving:
+            moving.add(joint.child)
+            chain.append(joint)
+    return chain
