@@ -82,9 +82,10 @@ def _meet(one: Floats, other: Floats) -> NDArray[np.bool_]:
 
 def inverted_poses(poses: Floats) -> Floats:
     """(K, 4, 4) inverses of rigid poses."""
-    inverse = np.tile(np.eye(4), (len(poses), 1, 1))
+    inverse = np.zeros_like(poses)
+    inverse[:, 3, 3] = 1.0
     inverse[:, :3, :3] = poses[:, :3, :3].transpose(0, 2, 1)
-    inverse[:, :3, 3] = -np.einsum("kij,kj->ki", inverse[:, :3, :3], poses[:, :3, 3])
+    inverse[:, :3, 3:] = -inverse[:, :3, :3] @ poses[:, :3, 3:]
     return inverse
 
 

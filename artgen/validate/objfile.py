@@ -14,7 +14,7 @@ BODY = b"\n# body "
 def read_triangles(path: Path) -> TriMesh:
     """The OBJ's vertices, triangles, texture coordinates (as `atlas`) and bodies.
 
-    Reads what artgen writes: blocks of `v`, `vt`, `vn`, then for each body a comment and its `f` lines.
+    Reads what artgen writes: blocks of `v`, `vt`, `vn`, then a comment a body and its `f` lines.
 
     Raises:
         GeometryError: a block is missing, ragged, or holds what is not a number, or a face names a

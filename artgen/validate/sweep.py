@@ -38,6 +38,7 @@ class Sweep:
 
 Pair = tuple[int, int]
 Between = Mapping[Pair, tuple[str, ...]]
+Courses = Mapping[str, tuple[float, ...]]
 Course = tuple[Pair, tuple[tuple[float, ...], ...]]
 """Two parts and the values that each joint between them takes."""
 
@@ -98,11 +99,11 @@ def crossings(
     """
     names = [base, *(joint.child for joint in joints)]
     between = joints_between(base, joints)
-    listed = list(sweeps(joints, preconditions))
+    listed = [(sweep, _courses(sweep, joints)) for sweep in sweeps(joints, preconditions)]
     seen: set[Course] = set()
     for chosen, stop in ((_moving, None), (_still, 1)):
-        for sweep in listed:
-            pairs = chosen(sweep, joints, between, seen)
+        for sweep, courses in listed:
+            pairs = chosen(courses, between, seen)
             if not pairs:
                 continue
             poses = sweep_poses(base, joints, sweep)
@@ -126,12 +127,9 @@ def joints_between(base: str, joints: Sequence[Joint]) -> Between:
     return {(i, j): tuple(sorted(one ^ other)) for (i, one), (j, other) in pairs}
 
 
-def _moving(
-    sweep: Sweep, joints: Sequence[Joint], between: Between, seen: set[Course]
-) -> list[Pair]:
+def _moving(courses: Courses, between: Between, seen: set[Course]) -> list[Pair]:
     """Pairs whose relative pose changes over a sweep in a way not seen yet; marks them and where
     they begin as seen."""
-    courses = _courses(sweep, joints)
     still = {name for name, course in courses.items() if len(set(course)) == 1}
     pairs = []
     for pair, names in between.items():
@@ -142,18 +140,15 @@ def _moving(
     return pairs
 
 
-def _still(
-    sweep: Sweep, joints: Sequence[Joint], between: Between, seen: set[Course]
-) -> list[Pair]:
+def _still(courses: Courses, between: Between, seen: set[Course]) -> list[Pair]:
     """Pairs whose relative pose at the first state is not seen yet; marks them as seen."""
-    courses = _courses(sweep, joints)
     starts = {pair: (pair, tuple(courses[n][:1] for n in names)) for pair, names in between.items()}
     pairs = [pair for pair, start in starts.items() if start not in seen]
     seen |= set(starts.values())
     return pairs
 
 
-def _courses(sweep: Sweep, joints: Sequence[Joint]) -> dict[str, tuple[float, ...]]:
+def _courses(sweep: Sweep, joints: Sequence[Joint]) -> Courses:
     """The value of each joint at each state."""
     values = [resolved(joints, state) for state in sweep.states]
     return {joint.name: tuple(q[joint.name] for q in values) for joint in joints}
