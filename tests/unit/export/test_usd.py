@@ -117,6 +117,24 @@ def test_a_part_of_one_surface_is_bound_whole(textured: Usd.Stage) -> None:
     assert UsdShade.MaterialBindingAPI(base).ComputeBoundMaterial()[0].GetPath().name == "wood"
 
 
+def test_angular_drives_and_limits_count_degrees(textured: Usd.Stage) -> None:
+    """The door: 1.9 rad, 0.05 N m s/rad, a spring of 2 N m/rad about -0.25 rad."""
+    prim = textured.GetPrimAtPath("/unit_000002/joints/swing")
+    drive, joint = UsdPhysics.DriveAPI(prim, "angular"), UsdPhysics.RevoluteJoint(prim)
+    found = [drive.GetDampingAttr(), drive.GetStiffnessAttr(), drive.GetTargetPositionAttr(),
+             joint.GetUpperLimitAttr()]  # fmt: skip
+    expected = [0.05 / 57.29577951308232, 2.0 / 57.29577951308232, -14.32394487827058,
+                108.86198107485642]  # fmt: skip
+    assert_allclose([attribute.Get() for attribute in found], expected, rtol=2.0**-22)
+
+
+def test_linear_drives_and_limits_count_metres(textured: Usd.Stage) -> None:
+    prim = textured.GetPrimAtPath("/unit_000002/joints/slide")
+    drive, joint = UsdPhysics.DriveAPI(prim, "linear"), UsdPhysics.PrismaticJoint(prim)
+    found = [drive.GetDampingAttr().Get(), joint.GetUpperLimitAttr().Get()]
+    assert_allclose(found, [0.05, 0.3], rtol=2.0**-23)
+
+
 def test_the_physics_parser_finds_every_body_joint_and_shape(textured: Usd.Stage) -> None:
     found = UsdPhysics.UsdPhysicsLoadStageFromPrimRange(textured, ["/"])
     assert all(desc.isValid for _, descs in found.values() for desc in descs)
