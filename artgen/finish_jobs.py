@@ -120,6 +120,26 @@ class GltfPart:
 
 
 @dataclass(frozen=True, kw_only=True)
+class OcclusionBake:
+    """Ambient occlusion of every part by itself, on the atlas, by Cycles.
+
+    Parts are baked apart from each other, so that the image is right in every pose. Costs 0.3 CPU s
+    a sample at 512 px, whatever the object.
+
+    Attributes:
+        output: the PNG that is written, and embedded in the GLB.
+        size: texels along a side.
+        samples: rays a texel.
+        reach: m; what is farther away does not darken.
+    """
+
+    output: str
+    size: int = 512
+    samples: int = 16
+    reach: float = 0.25
+
+
+@dataclass(frozen=True, kw_only=True)
 class GltfJob:
     """Write one GLB; the arrays of every part lie in `arrays` as `write_gltf_arrays` puts them.
 
@@ -129,6 +149,7 @@ class GltfJob:
         extras: JSON for the scene's `extras`.
         arrays: npz file.
         output: the .glb; its folder exists.
+        occlusion: None bakes nothing.
     """
 
     parts: tuple[GltfPart, ...]
@@ -136,6 +157,7 @@ class GltfJob:
     extras: Mapping[str, Any]
     arrays: str
     output: str
+    occlusion: OcclusionBake | None = None
     kind: str = "gltf"
 
     @classmethod
@@ -148,7 +170,9 @@ class GltfJob:
             for row in job["surfaces"]
         )
         parts = (GltfPart(**{**row, "origin": tuple(row["origin"])}) for row in job["parts"])
-        return cls(**{**job, "surfaces": tuple(surfaces), "parts": tuple(parts)})
+        bake = job["occlusion"] and OcclusionBake(**job["occlusion"])
+        typed = {"surfaces": tuple(surfaces), "parts": tuple(parts), "occlusion": bake}
+        return cls(**{**job, **typed})
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

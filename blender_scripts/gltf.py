@@ -10,14 +10,17 @@ import numpy as np
 from artgen.core.conventions import Y_UP_FROM_Z_UP
 from artgen.finish_jobs import GltfJob, read_gltf_arrays
 from blender_scripts import scene
+from blender_scripts.bake import bake_occlusion
 from blender_scripts.glb import read_glb, write_glb
-from blender_scripts.materials import principled_material
+from blender_scripts.materials import add_occlusion, principled_material
 from blender_scripts.meshes import mesh_from_arrays
 
 
-def run(job: Mapping[str, Any], _threads: int) -> dict[str, Any]:
+def run(job: Mapping[str, Any], threads: int) -> dict[str, Any]:
     """Build the objects, export them, then put the extras and exact translations in."""
     task = GltfJob.from_plain(job)
+    if task.occlusion is not None:
+        bake_occlusion(read_gltf_arrays(Path(task.arrays)), task.occlusion, threads)
     scene.reset()
     _build(task)
     output = Path(task.output)
@@ -45,6 +48,9 @@ def run(job: Mapping[str, Any], _threads: int) -> dict[str, Any]:
 def _build(task: GltfJob) -> None:
     """One object a part, parented as the joints are; matrices stay translations."""
     materials = [principled_material(surface) for surface in task.surfaces]
+    if task.occlusion is not None:
+        for material in materials:
+            add_occlusion(material, task.occlusion.output)
     arrays = read_gltf_arrays(Path(task.arrays))
     objects: dict[str, bpy.types.Object] = {}
     origins = {part.name: np.array(part.origin) for part in task.parts}

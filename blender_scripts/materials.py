@@ -7,7 +7,9 @@ import bpy
 from artgen.finish_jobs import GltfSurface
 from artgen.render_job import Sky, ThinGlass
 from blender_scripts.lights import sky_color
-from blender_scripts.meshes import UV
+from blender_scripts.meshes import ATLAS, UV
+
+OCCLUSION_GROUP = "glTF Material Output"
 
 
 def principled_material(surface: GltfSurface) -> bpy.types.Material:
@@ -44,14 +46,30 @@ def principled_material(surface: GltfSurface) -> bpy.types.Material:
     return material
 
 
-def _image(tree: bpy.types.NodeTree, path: str, space: str) -> bpy.types.ShaderNodeTexImage:
-    """A texture node that reads the file by the first UV set; one image block a file."""
+def add_occlusion(material: bpy.types.Material, path: str) -> None:
+    """Ambient occlusion by the atlas; the exporter looks for a group of this name."""
+    group = bpy.data.node_groups.get(OCCLUSION_GROUP)
+    if group is None:
+        group = bpy.data.node_groups.new(OCCLUSION_GROUP, "ShaderNodeTree")
+        group.interface.new_socket("Occlusion", in_out="INPUT", socket_type="NodeSocketFloat")
+    tree = material.node_tree
+    node = tree.nodes.new("ShaderNodeGroup")
+    node.node_tree = group
+    split = tree.nodes.new("ShaderNodeSeparateColor")
+    tree.links.new(_image(tree, path, "Non-Color", ATLAS).outputs["Color"], split.inputs[0])
+    tree.links.new(split.outputs["Red"], node.inputs["Occlusion"])
+
+
+def _image(
+    tree: bpy.types.NodeTree, path: str, space: str, layer: str = UV
+) -> bpy.types.ShaderNodeTexImage:
+    """A texture node that reads the file by a UV set; one image block a file."""
     node = tree.nodes.new("ShaderNodeTexImage")
     node.image = bpy.data.images.load(path, check_existing=True)
     node.image.name = Path(path).stem
     node.image.colorspace_settings.name = space
     place = tree.nodes.new("ShaderNodeUVMap")
-    place.uv_map = UV
+    place.uv_map = layer
     tree.links.new(place.outputs["UV"], node.inputs["Vector"])
     return node
 

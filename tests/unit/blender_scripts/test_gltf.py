@@ -1,5 +1,6 @@
 """A GLB holds what the job says: tree, places, triangles, normals, materials, images."""
 
+import dataclasses
 import hashlib
 import io
 import json
@@ -21,6 +22,7 @@ from artgen.finish_jobs import (
     GltfJob,
     GltfPart,
     GltfSurface,
+    OcclusionBake,
     write_gltf_arrays,
 )
 from artgen.geometry.normals import corner_normals
@@ -208,3 +210,38 @@ def test_another_process_writes_the_same_bytes(glb: Path, tmp_path: Path) -> Non
         assert hashlib.sha256(Path(task.output).read_bytes()).hexdigest() == before
         other.run(plain(task), timeout_s=60)
     assert hashlib.sha256(Path(task.output).read_bytes()).hexdigest() == before
+
+
+def test_occlusion_is_baked_on_the_atlas_and_worn_by_every_material(
+    blender: BlenderWorker, tmp_path: Path
+) -> None:
+    """Convex bodies that stand apart shade nothing: white wherever a chart lies. A slot in a block
+    is darker at its bottom than at its rim."""
+    slotted = (box((0.4, 0.4, 0.3)) - box((0.1, 0.5, 0.25), at=(0.0, 0.0, 0.06))).trimesh()
+    unit = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
+    side = int(np.ceil(np.sqrt(len(slotted.faces) + 12)))
+    cells = np.array([(k % side, k // side) for k in range(len(slotted.faces) + 12)])
+    atlas = (cells[:, None] + 0.1 + 0.8 * unit) / side
+    arrays_of = {"base": slotted, "door": box((0.3, 0.02, 0.3)).at(0, -0.3).trimesh()}
+    parts, start = {}, 0
+    for name, mesh in arrays_of.items():
+        own = arrays(mesh, [0])
+        window = atlas[start : start + len(mesh.faces)]
+        parts[name] = dataclasses.replace(own, atlas=window)
+        start += len(mesh.faces)
+    task = job(tmp_path)
+    write_gltf_arrays(tmp_path / "arrays.npz", parts)
+    bake = OcclusionBake(output=str(tmp_path / "ao.png"), size=256, samples=16)
+    task = dataclasses.replace(task, parts=task.parts[:2], occlusion=bake)
+    blender.run(plain(task), timeout_s=60)
+    image = np.asarray(Image.open(tmp_path / "ao.png")).astype(float) / 255.0
+    assert image.shape == (256, 256)
+    middle = (atlas.mean(axis=1) * 256).astype(int)
+    shown = image[255 - middle[:, 1], middle[:, 0]]
+    corners = slotted.vertices[slotted.faces]
+    bottom = (np.ptp(corners[..., 2], axis=1) < 1e-9) & (np.abs(corners[:, 0, 2] - 0.06) < 1e-6)
+    assert bottom.sum() == 2
+    assert shown[len(slotted.faces) :].min() > 0.99
+    assert shown[: len(slotted.faces)][bottom].max() < 0.7
+    document, _ = chunks(Path(task.output))
+    assert all(m["occlusionTexture"]["texCoord"] == 1 for m in document["materials"])
