@@ -22,7 +22,11 @@ from tests.strategies import axes, mesh_of
 
 Triple = tuple[float, float, float]
 REST: Floats = np.eye(4)[None]
-CUBE = slab((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
+
+
+def cube() -> Solid:
+    """10 cm a side, from the origin."""
+    return slab((0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
 
 
 def mover(name: str, *solids: Solid, poses: Floats = REST) -> Mover:
@@ -66,34 +70,34 @@ def test_the_filter_drops_no_overlap(
     boards = [slab((0.0, 0.0, k * 0.08), (0.2, 0.15, k * 0.08 + thickness)) for k in range(2)]
     parts = [*boards, tube(0.1, 0.09, 0.2, axis="x").at(0.0, -0.2, 0.0)]
     pose = rigid(axis_angle_matrix(axis, angle), place)
-    expected = sum((part.transformed(pose) & CUBE).volume for part in parts)
-    found = list(overlaps([mover("turned", *parts, poses=pose[None]), mover("block", CUBE)]))
+    expected = sum((part.transformed(pose) & cube()).volume for part in parts)
+    found = list(overlaps([mover("turned", *parts, poses=pose[None]), mover("block", cube())]))
     volume = sum(overlap.volume for overlap in found)
     # Transforming by the relative pose rounds once more: 1e-16 m over faces of 0.05 m2 at most.
     assert volume == pytest.approx(expected, abs=3 * NEGLIGIBLE)
 
 
 def test_touching_boxes_do_not_overlap() -> None:
-    assert list(overlaps([mover("a", CUBE), mover("b", CUBE.at(0.1))])) == []
+    assert list(overlaps([mover("a", cube()), mover("b", cube().at(0.1))])) == []
 
 
 def test_each_pose_is_told() -> None:
     path = shifts((0.3, 0.0, 0.0), (0.06, 0.0, 0.0), (0.02, 0.0, 0.0))
     still = np.repeat(REST, 3, axis=0)
-    found = list(overlaps([mover("a", CUBE, poses=path), mover("b", CUBE, poses=still)]))
+    found = list(overlaps([mover("a", cube(), poses=path), mover("b", cube(), poses=still)]))
     assert [(o.pose, o.first, o.second) for o in found] == [(1, "a", "b"), (2, "a", "b")]
     assert [o.volume for o in found] == pytest.approx([0.04 * 0.01, 0.08 * 0.01], rel=1e-12)
 
 
 def test_only_listed_pairs_are_looked_at() -> None:
-    movers = [mover(name, CUBE) for name in "abc"]
+    movers = [mover(name, cube()) for name in "abc"]
     assert [(o.first, o.second) for o in overlaps(movers, [(0, 2)])] == [("a", "c")]
     assert len(list(overlaps(movers))) == 3
 
 
 def test_a_body_inside_another_overlaps_with_its_whole_volume() -> None:
     small = slab((0.04, 0.04, 0.04), (0.06, 0.06, 0.06))
-    (found,) = overlaps([mover("a", CUBE), mover("b", small)])
+    (found,) = overlaps([mover("a", cube()), mover("b", small)])
     assert found == Overlap(pose=0, first="a", second="b", volume=pytest.approx(8e-6, rel=1e-12))
 
 
@@ -120,8 +124,8 @@ def test_boxes_of_moved_bodies_are_those_of_their_moved_vertices(
     axis: Triple, angle: float, place: Triple
 ) -> None:
     pose = rigid(axis_angle_matrix(axis, angle), place)
-    shape: Shape = shape_of_solids([CUBE, CUBE.at(0.5, 0.2, 0.1)])
-    moved = [CUBE.transformed(pose), CUBE.at(0.5, 0.2, 0.1).transformed(pose)]
+    shape: Shape = shape_of_solids([cube(), cube().at(0.5, 0.2, 0.1)])
+    moved = [cube().transformed(pose), cube().at(0.5, 0.2, 0.1).transformed(pose)]
     expected = np.array([solid.bounds for solid in moved])
     # Four roundings of numbers below 1 m.
     np.testing.assert_allclose(shape.boxes(pose[None])[0], expected, rtol=0, atol=1e-15)

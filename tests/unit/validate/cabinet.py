@@ -24,21 +24,17 @@ from artgen.articulation.types import (
 from artgen.core.conventions import Y_UP_FROM_Z_UP
 from artgen.core.jsonio import write_json
 from artgen.core.mesh import Floats, TriMesh
+from artgen.export.files import write_meshes
 from artgen.export.layout import (
     GLB,
     MANIFEST,
     MJCF,
     URDF,
-    HullPiece,
     atlas_path,
-    collision_pieces,
-    material_path,
-    mesh_path,
     pivots,
 )
 from artgen.export.manifest import manifest
 from artgen.export.mjcf import mjcf_text
-from artgen.export.obj import hull_text, mtl_text, obj_text
 from artgen.export.urdf import urdf_text
 from artgen.geometry.measure import combined, moments
 from artgen.geometry.solid import chamfered_box, slab
@@ -127,17 +123,10 @@ def cupboard(
 
 def write_quick_bundle(obj: ArticulatedObject, folder: Path) -> Path:
     """What `write_bundle` makes of an object, but no USD, and a GLB of positions alone."""
-    for name in ("meshes", "collision", "textures"):
-        (folder / name).mkdir(parents=True)
-    for part in obj.parts:
-        mtl = Path(material_path(obj.asset_id)).name
-        (folder / mesh_path(obj.asset_id, part.name)).write_text(obj_text(part.mesh, mtl=mtl))
-        for one in collision_pieces(obj.asset_id, part):
-            if isinstance(one, HullPiece):
-                (folder / one.file).write_text(hull_text(one.mesh))
+    (folder / "textures").mkdir(parents=True)
+    write_meshes(obj, folder)
     image = atlas_path(obj.asset_id)
     Image.new("RGB", (8, 8), (120, 90, 60)).save(folder / image)
-    (folder / material_path(obj.asset_id)).write_text(mtl_text(f"../{image}"))
     (folder / URDF).write_text(urdf_text(obj))
     (folder / MJCF).write_text(mjcf_text(obj))
     (folder / GLB).write_bytes(plain_glb(obj))
