@@ -28,11 +28,14 @@ def sample_state(
 ) -> dict[str, float]:
     """q of every free joint, preconditions obeyed.
 
-    A joint is at rest or evenly over its travel. Where a precondition bars a joint that was drawn
+    A joint is at rest or evenly over its travel, and one joint at least moves. Where a precondition bars a joint that was drawn
     open, half of the time its way is cleared (the joint it requires opens far enough), otherwise it
     goes back to rest: racks would move in one state of a hundred if doors were left to chance.
     """
-    q = {joint.name: _drawn(joint, stream) for joint in joints if joint.mimic is None}
+    free = [joint for joint in joints if joint.mimic is None]
+    q = {joint.name: _drawn(joint, stream, REST_CHANCE) for joint in free}
+    if not any(q.values()):
+        q = {joint.name: _drawn(joint, stream, 0.0) for joint in free}
     uppers = {joint.name: travel(joint)[1] for joint in joints}
     for _ in preconditions:
         for rule in preconditions:
@@ -54,11 +57,11 @@ def sample_states(
     return [sample_state(joints, preconditions, stream.child("state", t)) for t in range(count)]
 
 
-def _drawn(joint: Joint, stream: Stream) -> float:
+def _drawn(joint: Joint, stream: Stream, rest_chance: float) -> float:
     rng = stream.child(joint.name).generator()
     at_rest, share = rng.random(2)
     lower, upper = travel(joint)
-    return 0.0 if at_rest < REST_CHANCE else float(lower + share * (upper - lower))
+    return 0.0 if at_rest < rest_chance else float(lower + share * (upper - lower))
 
 
 def obeying(preconditions: Sequence[Precondition], q: Mapping[str, float]) -> dict[str, float]:

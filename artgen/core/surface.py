@@ -43,3 +43,9 @@ def linear_color(hex_text: str) -> tuple[float, float, float]:
     """`#rrggbb` in sRGB to linear RGB."""
     red, green, blue = (int(hex_text[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
     return linear_from_srgb(red), linear_from_srgb(green), linear_from_srgb(blue)
+
+
+def srgb_hex(color: tuple[float, float, float]) -> str:
+    """Linear RGB to `#rrggbb` in sRGB; undoes `linear_color`."""
+    encoded = (12.92 * c if c <= 0.0031308 else 1.055 * c ** (1.0 / 2.4) - 0.055 for c in color)
+    return "#" + "".join(f"{round(255.0 * value):02x}" for value in encoded)

@@ -8,6 +8,7 @@ from artgen.textures.appliance_panel import appliance_display, appliance_panel
 from artgen.textures.coat import enamel, paint
 from artgen.textures.grain import plastic, rubber
 from artgen.textures.images import TextureSet
+from artgen.textures.keyboard import keyboard
 from artgen.textures.metal import anodized, brushed
 from artgen.textures.plain import plain
 from artgen.textures.screen import screen
@@ -24,6 +25,7 @@ RECIPES: Mapping[str, Callable[[SurfaceSpec], TextureSet]] = {
     "appliance_panel": appliance_panel,
     "brushed": brushed,
     "enamel": enamel,
+    "keyboard": keyboard,
     "paint": paint,
     "plain": plain,
     "plastic": plastic,

@@ -61,18 +61,16 @@ def test_drawn_states_obey_limits_and_preconditions(seed, count) -> None:
 
 
 @given(trees(), st.integers(0, 10**6))
-def test_more_states_and_more_joints_change_no_earlier_draw(tree, seed) -> None:
+def test_more_states_change_no_earlier_one(tree, seed) -> None:
     stream = Stream(seed, "s")
     few, many = sample_states(tree, (), stream, 2), sample_states(tree, (), stream, 5)
     assert many[:2] == few
-    alone = sample_states(tree[:1], (), stream, 2)
-    assert [s.get(tree[0].name) for s in few] == [s.get(tree[0].name) for s in alone]
 
 
 def test_draws_cover_the_travel_and_leave_some_joints_closed() -> None:
-    q = np.array([s["door"] for s in sample_states([DOOR], (), Stream(1), 2000)])
-    # 15 % at rest: binomial sd 0.8 %, so 5 sd is 4 %.
-    assert abs(np.mean(q == 0.0) - 0.15) < 0.04
+    q = np.array([s["door"] for s in sample_states([DOOR, RACK], (), Stream(1), 2000)])
+    # At rest with 15 %, less the 2.25 % where both would be: binomial sd 0.75 %, so 5 sd is 4 %.
+    assert abs(np.mean(q == 0.0) - 0.1275) < 0.04
     moved = q[q > 0.0] / 1.5
     # Mean of 1700 uniform draws: sd 0.7 %.
     assert abs(moved.mean() - 0.5) < 0.035
@@ -83,6 +81,10 @@ def test_what_a_precondition_bars_moves_in_a_fair_share_of_states() -> None:
     binomial standard deviations of 1.1 %; left to chance it would be 0.85 * 0.85 * 0.1 / 1.5."""
     drawn = sample_states(JOINTS, RULES, Stream(2), 2000)
     assert np.mean([state["rack"] > 0.0 for state in drawn]) > 0.425 - 0.055
+
+
+def test_a_lone_joint_moves_in_every_drawn_state() -> None:
+    assert all(state["door"] > 0.0 for state in sample_states([DOOR], (), Stream(3), 500))
 
 
 def test_a_barred_joint_goes_back_to_rest_along_the_whole_chain() -> None:
