@@ -14,10 +14,11 @@ from artgen.generators.kit.counterbalance import counterbalance
 
 PARAMS = DishwasherParams
 
-DOOR_HOLD = 1.15
+DOOR_HOLD = 1.10
 """Friction of the hinge over the torque that the spring leaves: the door stays where it is put."""
-DOOR_LIMIT = 4.8
-"""N m; no door asks for more to be opened or closed."""
+LEAST_HOLD = 1.02
+DOOR_LIMIT = 4.9
+"""N m; doors that would ask for more are held by the least friction that holds them."""
 
 
 def build(p: DishwasherParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
@@ -90,7 +91,7 @@ def door_joint(at: Layout, part: DraftPart) -> Joint:
         axis=(1.0, 0.0, 0.0),  # +q turns the upper edge from +z towards the front, -y
         origin=pivot,
         limit=Limit(lower=0.0, upper=at.upper),
-        friction=max(0.5, min(DOOR_HOLD * left, DOOR_LIMIT - left)),
+        friction=max(0.5, LEAST_HOLD * left, min(DOOR_HOLD * left, DOOR_LIMIT - left)),
         damping=0.8,
         effort=30.0,
         spring=spring,
@@ -131,8 +132,10 @@ def spin(arm: str, at: Layout, *, parent: str) -> Joint:
 
 
 def handle_suits_front(p: DishwasherParams) -> bool:
-    """Pockets are molded into sheet fronts with a control panel above, not into furniture."""
-    return not (p.handle == "pocket" and p.has_furniture_panel)
+    """Pockets are molded into sheet, not into furniture; grip grooves lie under a control panel."""
+    if p.handle == "pocket":
+        return not p.has_furniture_panel
+    return not (p.handle == "groove" and p.hidden_console)
 
 
 def door_clears_kick_plate(p: DishwasherParams) -> bool:

@@ -13,7 +13,6 @@ from artgen.generators.kit.control_console import (
 from artgen.generators.kit.density import (
     ABS,
     ALUMINIUM,
-    MDF,
     POLYPROPYLENE,
     RUBBER,
     STAINLESS,
@@ -32,8 +31,12 @@ from artgen.geometry.solid import Solid, slab, union
 DOOR_SHEET = 0.0006
 """m; steel of the outer panel."""
 LINER_SHEET = 0.0005
+LIGHT_BOARD = 500.0
+"""kg/m3; furniture fronts for dishwashers are of light MDF: their hinges carry 2.5 to 8 kg."""
 INSIDES = 3.4
 """kg/m2; sheet frame, insulation, wiring and latch between liner and panel."""
+SPARE_INSIDES = 2.2
+"""kg/m2; where a furniture front takes the outer frame's place."""
 DISH = 0.011
 """m; depth of the liner's dish."""
 RETURN = 0.002
@@ -64,7 +67,7 @@ def door(
         Body(
             solid=liner,
             surface="liner",
-            density=_liner_density(d, liner.volume),
+            density=_liner_density(p, d, liner.volume),
             collision=(slab((-d.half_width, d.seam, d.bottom), (d.half_width, d.inner, d.top)),),
         ),
         panel,
@@ -81,10 +84,11 @@ def _less(solid: Solid, cuts: tuple[Solid, ...]) -> Solid:
     return solid
 
 
-def _liner_density(d: DropDoor, volume: float) -> float:
+def _liner_density(p: DishwasherParams, d: DropDoor, volume: float) -> float:
     """kg/m3 that gives the solid liner the mass of sheet and insides."""
     area = 2.0 * d.half_width * (d.top - d.bottom)
-    return area * (STAINLESS * LINER_SHEET + INSIDES) / volume
+    insides = SPARE_INSIDES if p.has_furniture_panel else INSIDES
+    return area * (STAINLESS * LINER_SHEET + insides) / volume
 
 
 def _panel(p: DishwasherParams, at: Layout, cuts: tuple[Solid, ...]) -> Body:
@@ -94,13 +98,13 @@ def _panel(p: DishwasherParams, at: Layout, cuts: tuple[Solid, ...]) -> Body:
     if p.has_furniture_panel:
         solid = slab((-d.half_width, d.outer, d.skin_bottom), (d.half_width, d.seam, top))
     else:
-        solid = wrapped_panel(d, top=top, sheet=RETURN, edge=0.012)
+        solid = wrapped_panel(d, top=top, returns=min(top, d.top - CAP), sheet=RETURN, edge=0.012)
     collision = slab((-d.half_width, d.outer, d.skin_bottom), (d.half_width, d.seam, d.top))
     furniture = p.has_furniture_panel
     return Body(
         solid=_less(solid, cuts),
         surface="panel" if furniture else "front",
-        density=0.80 * MDF if furniture else STEEL * DOOR_SHEET / d.skin,  # light MDF; sheet
+        density=LIGHT_BOARD if furniture else STEEL * DOOR_SHEET / d.skin,
         edge=0.0012 if furniture else 0.0026,
         collision=(collision,),
         grain="z",

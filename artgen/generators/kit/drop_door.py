@@ -74,14 +74,17 @@ def inner_body(
     return block - _dish(door, half, low, high, depth) - notches(door)
 
 
-def wrapped_panel(door: DropDoor, *, top: float, sheet: float, edge: float) -> Solid:
-    """The outer panel of formed sheet; its sides return to `edge` m before the inner face."""
+def wrapped_panel(
+    door: DropDoor, *, top: float, returns: float, sheet: float, edge: float
+) -> Solid:
+    """The outer panel of formed sheet up to `top`; its sides return over the inner body, up to
+    z = `returns` and to `edge` m before the inner face."""
     panel = slab(
         (-door.half_width, door.outer, door.skin_bottom), (door.half_width, door.seam, top)
     )
     side = slab(
         (door.half_width - sheet, door.seam - 0.001, door.bottom),
-        (door.half_width, door.inner - edge, top),
+        (door.half_width, door.inner - edge, returns),
     )
     return union([panel, side, side.mirrored("x")])
 

@@ -64,7 +64,7 @@ def tub_solid(tub: Tub, *, flange: Solid) -> Solid:
     cavity = upright(prism(tub_section(tub), tub.depth), "y")
     x, y = tub.sump
     pan = slab(
-        (-tub.half_width + 0.02, 0.04, tub.floor - SUMP_DROP - 0.032),
+        (-tub.half_width + 0.02, 0.066, tub.floor - SUMP_DROP - 0.032),
         (tub.half_width - 0.02, tub.depth - 0.03, tub.floor - 0.5 * tub.wall),
     )
     solid = ((shell | pan) - cavity - _slope(tub)) - cylinder(
@@ -76,7 +76,7 @@ def tub_solid(tub: Tub, *, flange: Solid) -> Solid:
 def _slope(tub: Tub) -> Solid:
     x, y = tub.sump
     reach = tub.half_width - 0.058
-    rim = [(u, v, tub.floor + 0.001) for u in (-reach, reach) for v in (0.06, tub.depth - 0.05)]
+    rim = [(u, v, tub.floor + 0.001) for u in (-reach, reach) for v in (0.085, tub.depth - 0.05)]
     low = circle(SUMP_RADIUS + 0.004, segments=20) + np.array([x, y])
     return hull([*rim, *((u, v, tub.floor - SUMP_DROP) for u, v in low)])
 

@@ -180,7 +180,8 @@ def tines(
 ) -> list[Solid]:
     """Square pins on the lower floor layer at every (x, y), tips leaning `lean` m to the back."""
     pin = wire([(0.0, 0.0, 0.0), (0.0, lean, height)], 0.9 * basket.radius, sides=4)
-    return [pin.at(x, y, basket.ground(x) + 1.15 * basket.radius) for x in xs for y in ys]
+    foot = (1.15 + lean / height) * basket.radius  # its foot is square to the lean
+    return [pin.at(x, y, basket.ground(x) + foot) for x in xs for y in ys]
 
 
 def basket_collision(basket: WireBasket) -> tuple[Solid, ...]:
