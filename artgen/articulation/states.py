@@ -28,10 +28,10 @@ def sample_state(
 ) -> dict[str, float]:
     """q of every free joint, preconditions obeyed.
 
-    A joint is at rest or evenly over its travel, and one joint at least moves. Where a precondition bars a joint that was drawn
-    open, half of the time its way is cleared (the joint it requires opens far enough), otherwise it
-    goes back to rest: racks would move in one state of a hundred if doors were left to chance.
-    """
+    A joint is at rest or evenly over its travel, and one joint at least moves. Where a precondition
+    bars a joint that was drawn open, half of the time its way is cleared (the joint it requires
+    opens far enough), otherwise it goes back to rest: racks would move in one state of a hundred if
+    doors were left to chance."""
     free = [joint for joint in joints if joint.mimic is None]
     q = {joint.name: _drawn(joint, stream, REST_CHANCE) for joint in free}
     if not any(q.values()):

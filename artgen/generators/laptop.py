@@ -73,10 +73,11 @@ def _looks(s: LaptopShape, surfaces: Mapping[str, SurfaceSpec]) -> dict[str, Sur
     looks["screen"] = dataclasses.replace(
         screen, tile=screen_size(s), detail={**screen.detail, "seed": float(s.p.screen_seed)}
     )
+    red, green, blue = looks["shell"].color
     looks["pad"] = dataclasses.replace(
         looks["shell"],
         name="pad",
         roughness=0.30,
-        color=tuple(0.88 * c for c in looks["shell"].color),
+        color=(0.88 * red, 0.88 * green, 0.88 * blue),
     )
     return looks

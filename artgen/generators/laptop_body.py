@@ -3,6 +3,7 @@
 import numpy as np
 
 from artgen.articulation.types import Body, Decal, DraftPart
+from artgen.core.mesh import Floats
 from artgen.generators.kit.density import ABS, ALUMINIUM, RUBBER
 from artgen.generators.laptop_shape import LaptopShape
 from artgen.geometry.profile import rounded_rectangle
@@ -64,7 +65,7 @@ def _chassis(s: LaptopShape) -> Solid:
     return whole - union([*cuts, notch])
 
 
-def _ring(s: LaptopShape, inset: float, z: float, *, tilted: bool) -> np.ndarray:
+def _ring(s: LaptopShape, inset: float, z: float, *, tilted: bool) -> Floats:
     """The outline at height z; the underside rises towards the front by the wedge."""
     ring = rounded_rectangle(
         2 * (s.half_width - inset),

@@ -21,6 +21,7 @@ SIDE_AXES = np.array([[1, 2], [2, 0], [0, 1]])
 
 SMALLEST = 1e-4
 """m; thinner charts are packed as if they were this wide, so that none is lost."""
+MILLIMETRES = 1e3
 
 
 def metric_uv(vertices: Floats, faces: Ints, *, grain: int | None, place: int) -> Floats:
@@ -122,7 +123,7 @@ def _packed(sizes: Floats, resolution: int) -> tuple[Floats, Floats, Floats]:
     """Corner, right edge and up edge (N, 2) in the unit square for rectangles of `sizes` (N, 2)
     m."""
     count = len(sizes)
-    width, height = np.maximum(sizes, SMALLEST).T
+    width, height = MILLIMETRES * np.maximum(sizes, SMALLEST).T  # xatlas drops areas of 1e-8
     zero = np.zeros(count)
     quads = np.stack(
         [
