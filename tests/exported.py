@@ -1,5 +1,6 @@
 """Written bundles, and their files read back by libraries that know nothing of artgen."""
 
+import itertools
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from pathlib import Path
@@ -180,16 +181,20 @@ def mujoco_boxes(obj: ArticulatedObject, folder: Path, file: str, state: State) 
     """Of the visual meshes MuJoCo loaded."""
     model = mujoco_model(folder, file)
     data = mujoco_data(obj, model, state)
-    boxes = {}
-    for part in obj.parts:
-        name = f"{part.name}_visual"
-        geom, placed = model.geom(name), data.geom(name)
+    return {part.name: geom_box(model, data, f"{part.name}_visual") for part in obj.parts}
+
+
+def geom_box(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> Floats:
+    """Of one box or mesh geom."""
+    geom, placed = model.geom(name), data.geom(name)
+    if geom.type[0] == mujoco.mjtGeom.mjGEOM_BOX:
+        points = geom.size * np.array(list(itertools.product((-1, 1), repeat=3)))
+    else:
         mesh = int(geom.dataid[0])
         start, first = model.mesh_vertadr[mesh], model.mesh_faceadr[mesh]
         faces = model.mesh_face[first : first + model.mesh_facenum[mesh]]
         points = model.mesh_vert[start + np.unique(faces)].astype(float)  # Only what is shown.
-        boxes[part.name] = _box(apply(rigid(placed.xmat.reshape(3, 3), placed.xpos), points))
-    return boxes
+    return _box(apply(rigid(placed.xmat.reshape(3, 3), placed.xpos), points))
 
 
 def yourdfpy_boxes(obj: ArticulatedObject, folder: Path, state: State) -> Boxes:

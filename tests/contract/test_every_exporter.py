@@ -17,6 +17,7 @@ from pxr import Usd, UsdValidation
 
 from artgen.articulation.states import travel
 from artgen.articulation.types import ArticulatedObject
+from artgen.core.transform import apply
 from artgen.export import READERS, layout, read_bundle, write_bundle
 from artgen.export.kinematics import FileJoint, FileKinematics, stated
 from artgen.textures.library import TextureLibrary
@@ -199,16 +200,22 @@ def test_world_boxes_agree_in_all_files(written: tuple[ArticulatedObject, Path])
 
 
 def test_collision_geoms_are_the_authored_pieces(written: tuple[ArticulatedObject, Path]) -> None:
-    """As many as authored, boxes with the authored sizes, none of them visible meshes."""
+    """They fill the authored boxes at rest (hulls are float32 in MuJoCo) and the meshes shown do
+    not collide."""
     obj, folder = written
     for file in (layout.MJCF, layout.URDF):
         model = exported.mujoco_model(folder, file)
+        data = exported.mujoco_data(obj, model, {})
+        rest = exported.our_poses(obj, {})  # A mimic with an offset is not at zero.
         for part in obj.parts:
             for piece in layout.collision_pieces(obj.asset_id, part):
-                geom = model.geom(f"{part.name}_collision_{piece.index}")
-                assert geom.contype[0] == 1
-                if isinstance(piece, layout.BoxPiece):
-                    assert_allclose(2 * geom.size, piece.size, rtol=1e-15)
+                name = f"{part.name}_collision_{piece.index}"
+                moved = apply(rest[part.name], part.collision[piece.index].vertices)
+                expected = [moved.min(axis=0), moved.max(axis=0)]
+                atol = 1e-15 if isinstance(piece, layout.BoxPiece) else 4 * FLOAT32
+                found = exported.geom_box(model, data, name)
+                assert_allclose(found, expected, rtol=0, atol=atol, err_msg=f"{file}: {name}")
+                assert model.geom(name).contype[0] == 1
         hidden = [model.geom(f"{part.name}_visual").contype[0] for part in obj.parts]
         assert hidden == [0] * len(obj.parts)
 
