@@ -18,7 +18,8 @@ SIDES = 5
 
 
 STEP = math.radians(46.0)
-"""Bends turn by this much a chord at most; corners that turn less are left sharp by a quarter."""
+"""Bends turn by this much a chord at most; corners that turn less than half of it
+stay sharp."""
 
 
 def bent(corners: ArrayLike, radius: float, *, closed: bool = False) -> Floats:
@@ -48,7 +49,7 @@ def _fillet(a: Floats, corner: Floats, b: Floats, radius: float) -> Floats:
     into, out = corner - a, b - corner
     into, out = into / np.linalg.norm(into), out / np.linalg.norm(out)
     turn = math.acos(float(np.clip(into @ out, -1.0, 1.0)))
-    if turn < STEP / 4.0:
+    if turn < STEP / 2.0:
         return corner[None]
     side = out - into * (into @ out)
     side /= np.linalg.norm(side)
