@@ -10,6 +10,8 @@ GOLDEN = 0.6180339887498949
 """Multiples of it, modulo 1, fill an interval evenly however many are taken."""
 SIDE = math.radians(75.0)
 """Azimuth to either side of the front within which most views lie."""
+FIRST = (0.12, 0.32)
+"""Where the first view stands, as a share of the whole range off its middle: 18 to 48 degrees."""
 JITTER = math.radians(8.0)
 BACK_CHANCE = 0.1
 """Share of views, after the first, that look from behind."""
@@ -24,10 +26,11 @@ def orbit_cameras(
 ) -> tuple[Camera, ...]:
     """`views` cameras that all see (N, 3) `points`; view v depends on its own number alone.
 
-    Azimuths step by the golden section from a start that the seed shifts, so that few views already
-    lie apart, and more views leave the earlier ones as they are.
+    The first is a three-quarter view from either side; azimuths then step by the golden section, so
+    that few views already lie apart, and more views leave the earlier ones as they are.
     """
-    start = float(stream.child("azimuth").generator().random())
+    side, turn = stream.child("azimuth").generator().random(2)
+    start = 0.5 + (1.0 if side < 0.5 else -1.0) * _between(FIRST, turn)
     return tuple(
         _orbit_camera(points, stream.child("view", v), place=(start + v * GOLDEN) % 1.0, size=size)
         for v in range(views)

@@ -3,6 +3,7 @@
 import json
 import logging
 import multiprocessing
+import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import as_completed
 from dataclasses import dataclass, field
@@ -90,6 +91,7 @@ def run_tasks(
     folder: RunFolder, tasks: Sequence[RenderTask], *, workers: int
 ) -> Iterator[Rendered]:
     """Outcomes as they come; cores beyond the number of processes become render threads."""
+    shutil.rmtree(scratch(folder), ignore_errors=True)  # of a run that was killed
     processes = max(1, min(workers, len(tasks)))
     waiting = list(tasks)
     with ProcessPool(
@@ -119,6 +121,11 @@ def run_tasks(
         yield Rendered(asset_id=task.asset_id, message="its process died twice")
 
 
+def scratch(folder: RunFolder) -> Path:
+    """Where images lie until they are packed into a sample."""
+    return folder.work / "render"
+
+
 def _remember(path: Path, settings: Settings, seed: int) -> None:
     """Write down how samples are rendered, or check that it has not changed."""
     asked = plain({"settings": settings, "seed": seed, "versions": versions()})
@@ -142,21 +149,21 @@ def _open_worker(folder: RunFolder, threads: int) -> None:
     global _worker
     name = multiprocessing.current_process().name.lower()
     log_file = folder.logs / f"blender-render-{name}.log"
-    _worker = BlenderWorker(log_file, threads=threads), folder.work / "render"
+    _worker = BlenderWorker(log_file, threads=threads), scratch(folder)
 
 
 def _task_in_worker(task: RenderTask) -> Rendered:
     """Faults of one asset become its outcome; the process goes on."""
     if _worker is None:
         raise RuntimeError("the pool did not open its worker")
-    worker, scratch = _worker
+    worker, images = _worker
     try:
         seconds = render_asset(
             read_bundle(task.bundle),
             task.sample,
             settings=task.settings,
             seed=task.seed,
-            scratch=scratch,
+            scratch=images,
             worker=worker,
         )
     except ArtgenError as error:

@@ -23,15 +23,18 @@ def test_more_views_leave_the_earlier_ones_alone() -> None:
         assert np.array_equal(a.camera_from_world, b.camera_from_world)
 
 
-def test_the_first_view_faces_the_front_and_most_others_do() -> None:
-    """One view in ten after the first looks from behind: of 300, 30 plus or minus 3 sigma = 16."""
+def test_the_first_view_is_three_quarter_and_most_others_face_the_front() -> None:
+    """18 to 48 degrees, jitter 8. Of 300 later views one in ten looks from behind: 30, and three
+    sigma are 16."""
     azimuths = []
     for seed in range(100):
         cameras = orbit_cameras(POINTS, Stream(seed), views=4, size=(64, 64))
         places = [camera.position - POINTS.mean(axis=0) for camera in cameras]
         azimuths.append([np.arctan2(x, -y) for x, y, _ in places])
     front = np.abs(np.array(azimuths)) < SIDE + 0.3
-    assert front[:, 0].all()
+    first = np.abs(np.array(azimuths)[:, 0])
+    assert np.radians(9) < first.min()
+    assert first.max() < np.radians(57)
     assert 14 <= (~front[:, 1:]).sum() <= 46
 
 
