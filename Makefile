@@ -61,7 +61,8 @@ goldens: install-test ## rewrite the golden summaries of the categories
 	$(BIN)/python -m tests.golden.write
 
 gallery: install ## rewrite the pictures in docs/
-	$(BIN)/python -m renders.gallery
+	$(BIN)/artgen generate --count 12 --seed 2026 --size 256 --views 1 --states 2 --out out/gallery
+	mkdir -p docs/images && cp out/gallery/contact_sheet.png docs/images/contact_sheet.png
 
 bench: install-test ## measure the figures in docs/benchmarks.md
 	$(BIN)/python -m tests.bench.figures
