@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from artgen.articulation.types import Axis, Body, Draft, DraftPart
 from artgen.core.surface import SurfaceSpec
 from artgen.generators.kit.board import Stock
-from artgen.generators.kit.cabinet_design import BUMPER, Design, halves
+from artgen.generators.kit.cabinet_design import BUMPER, Design
 from artgen.generators.kit.cabinet_hinge import AXIS_AHEAD
 from artgen.generators.kit.cabinet_kinds import KINDS, PATTERNS, Site, columns_of, picked
 from artgen.generators.kit.cabinet_movers import Works, cell_works
@@ -174,7 +174,7 @@ def fronts_are_usable(p: CabinetParams) -> bool:
     for cell in layout(p)[0]:
         o = cell.opening
         kind = cell.leaf.kind
-        if kind == "drawer" and not (o.height >= 0.095 and 0.2 <= o.width <= 1.1):
+        if kind == "drawer" and not (0.095 <= o.height <= 0.37 and 0.2 <= o.width <= 1.1):
             return False
         wide = o.width / 2.0 if kind == "pair" else o.width
         if kind not in ("drawer", "open") and not (0.21 <= wide <= 0.62 and o.height >= 0.18):
@@ -202,7 +202,7 @@ def doors_clear_their_gap(p: CabinetParams) -> bool:
 INVARIANTS: Mapping[str, Callable[[CabinetParams], bool]] = {
     "stand_suits_kind": lambda p: p.stand in KINDS[p.kind].stands,
     "milled_grips_need_plain_fronts": lambda p: p.grip not in MILLED or p.style == "slab",
-    "few_moving_parts": lambda p: 1 <= movers(p) <= p.most_movers,
+    "few_moving_parts": lambda p: KINDS[p.kind].fewest <= movers(p) <= p.most_movers,
     "fronts_are_usable": fronts_are_usable,
     "doors_clear_their_gap": doors_clear_their_gap,
 }

@@ -1,7 +1,7 @@
 """Kinds of cabinets: usual sizes, what they stand on, and how their faces are divided.
 
 Sizes follow what is sold: kitchen base units are 0.72 m high on a plinth of 0.10 to 0.15 m and
-0.56 to 0.60 m deep (EN 1116); desks, chests and sideboards follow catalogues of furniture houses.
+0.56 to 0.60 m deep (EN 1116); chests, sideboards and the rest follow furniture catalogues.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -37,19 +37,20 @@ class Site:
 
 @dataclass(frozen=True, kw_only=True)
 class CabinetKind:
-    """Middle of the usual sizes (m), columns at least and at most, and the choices there are."""
+    """Middle of the usual sizes (m), columns at least and at most, fewest moving parts, choices."""
 
     width: float
     depth: float
     height: float
     columns: tuple[int, int]
+    fewest: int
     stands: tuple[str, ...]
     patterns: tuple[str, ...]
 
 
 def stack(site: Site, rows: int, height: float) -> Node:
-    """Drawers that grow downwards, none lower than 0.11 m in front."""
-    rows = max(1, min(rows, int(height / 0.115)))
+    """Drawers that grow downwards, about 0.12 m to 0.30 m high."""
+    rows = max(1, round(height / 0.30), min(rows, int(height / 0.115)))
     if rows == 1:
         return DRAWER
     weights = tuple(site.growth ** (rows - 1 - k) for k in range(rows))
@@ -148,40 +149,43 @@ PATTERNS: Mapping[str, Callable[[Site], Node]] = {
 LEGS = ("round_legs", "square_legs", "hairpin", "frame")
 KINDS: Mapping[str, CabinetKind] = {
     "sideboard": CabinetKind(
-        width=1.45, depth=0.42, height=0.78, columns=(2, 4), stands=("plinth", *LEGS),
+        width=1.45, depth=0.42, height=0.78, columns=(2, 4), fewest=3, stands=("plinth", *LEGS),
         patterns=("door", "drawers", "drawer_over_door", "door_over_drawer", "open_over_drawers",
                   "open_over_door", "inner_drawers"),
     ),
     "chest": CabinetKind(
-        width=0.88, depth=0.46, height=0.92, columns=(1, 2),
+        width=0.88, depth=0.46, height=0.92, columns=(1, 2), fewest=3,
         stands=("plinth", "round_legs", "square_legs", "panel"),
         patterns=("drawers", "split_top", "drawers"),
     ),
     "base_unit": CabinetKind(
-        width=0.66, depth=0.58, height=0.87, columns=(1, 2), stands=("plinth", "panel"),
+        width=0.66, depth=0.58, height=0.87, columns=(1, 2), fewest=2, stands=("plinth", "panel"),
         patterns=("drawer_over_door", "drawers", "door", "drawers_over_door", "inner_drawers"),
     ),
     "vanity": CabinetKind(
-        width=0.85, depth=0.46, height=0.64, columns=(1, 3),
+        width=0.85, depth=0.46, height=0.64, columns=(1, 3), fewest=2,
         stands=("wall", "square_legs", "round_legs", "frame", "plinth"),
         patterns=("two_drawers", "door", "drawer_over_door", "drawer_over_open"),
     ),
     "nightstand": CabinetKind(
-        width=0.46, depth=0.40, height=0.55, columns=(1, 1), stands=("plinth", "panel", "wall", *LEGS),
+        width=0.46, depth=0.40, height=0.55, columns=(1, 1), fewest=1,
+        stands=("plinth", "panel", "wall", *LEGS),
         patterns=("drawers", "drawer_over_open", "drawer_over_door", "two_drawers"),
     ),
     "tall": CabinetKind(
-        width=0.62, depth=0.40, height=1.62, columns=(1, 2),
-        stands=("plinth", "panel", "round_legs", "square_legs", "frame"),
+        width=0.62, depth=0.40, height=1.62, columns=(1, 2), fewest=2,
+        stands=("plinth", "panel", "square_legs", "frame"),
         patterns=("door_over_drawers", "door_over_door", "open_over_drawers", "open_drawer_door",
                   "door", "inner_drawers"),
     ),
     "media": CabinetKind(
-        width=1.55, depth=0.42, height=0.50, columns=(2, 4), stands=("plinth", "wall", *LEGS),
+        width=1.55, depth=0.42, height=0.50, columns=(2, 4), fewest=2,
+        stands=("plinth", "wall", *LEGS),
         patterns=("door", "open", "two_drawers", "one_drawer", "drawer_over_open"),
     ),
     "highboard": CabinetKind(
-        width=1.0, depth=0.42, height=1.22, columns=(1, 3), stands=("plinth", "panel", *LEGS),
+        width=0.96, depth=0.42, height=1.18, columns=(1, 3), fewest=3,
+        stands=("plinth", "panel", "round_legs", "square_legs", "frame"),
         patterns=("door", "door_over_drawer", "open_over_drawers", "drawers", "open_over_door",
                   "drawer_over_door"),
     ),

@@ -78,16 +78,19 @@ def _pair(design: Design, cell: Cell, number: int) -> Works:
     rect = design.front_rect(cell)
     left, right = halves(rect, design.gap)
     shelves, taken = _shelves(design, cell.opening, _behind_door(design), ())
-    both = [
-        _door(design, half, cell.opening, side, name=f"door_{number}{letter}",
-              free_side=free, taken=taken)
-        for half, side, letter, free in (
-            (left, "left", "a", cell.at_left), (right, "right", "b", cell.at_right)
+    pair: tuple[tuple[Rect, Side, bool, str], ...] = (
+        (left, "left", cell.at_left, "a"),
+        (right, "right", cell.at_right, "b"),
+    )
+    works = Works(base=shelves)
+    for half, side, free_side, letter in pair:
+        name = f"door_{number}{letter}"
+        works += _door(
+            design, half, cell.opening, side, name=name, free_side=free_side, taken=taken
         )
-    ]  # fmt: skip
     middle = rect.middle[0]
     stops = _stops(design, cell.opening, (middle - 0.03, middle + 0.03))
-    return both[0] + both[1] + Works(base=shelves + stops)
+    return works + Works(base=stops)
 
 
 def _behind_door(design: Design) -> float:

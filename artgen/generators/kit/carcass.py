@@ -1,6 +1,5 @@
 """The fixed body of a cabinet: case boards, dividers, back, shelves on pins."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -110,7 +109,7 @@ def inner_boards(case: Case, separators: list[Separator], stock: Stock) -> tuple
 
 def shelf_heights(opening: Rect, pitch: float) -> tuple[float, ...]:
     """z of the undersides of loose shelves about `pitch` m apart, in steps of 32 mm."""
-    count = max(0, math.floor(opening.height / pitch) - 1)
+    count = max(0, round(opening.height / pitch) - 1)
     even = np.linspace(opening.z0, opening.z1, count + 2)[1:-1]
     rows = np.round((even - opening.z0) / 0.032)
     return tuple(float(opening.z0 + 0.032 * row) for row in rows)

@@ -14,6 +14,8 @@ from artgen.geometry.solid import Solid, prism, slab, upright
 Runner = Literal["metal", "wood"]
 LENGTHS = np.arange(0.20, 0.61, 0.05)
 """m; runners are sold in steps of 50 mm."""
+BOTTOM = 0.005
+"""Thickness of drawer bottoms, m."""
 PLAY = 0.0012
 """m; between the fixed and the moving half of a runner."""
 SIDE_ROOM = {"metal": 0.0127, "wood": 0.0025}
@@ -61,7 +63,7 @@ class DrawerBox:
 
 def longest(room: float) -> float:
     """The longest runner that fits into `room` m of depth."""
-    return float(LENGTHS[LENGTHS <= room + 1e-9].max(initial=LENGTHS[0]))
+    return float(LENGTHS[room + 1e-9 >= LENGTHS].max(initial=LENGTHS[0]))
 
 
 def drawer_box(box: DrawerBox, stock: Stock, bottom: Stock) -> tuple[Body, ...]:
@@ -74,7 +76,7 @@ def drawer_box(box: DrawerBox, stock: Stock, bottom: Stock) -> tuple[Body, ...]:
         for y in (front, back - t)
     ]
     floor = o.z0 + 0.009
-    base = bottom.board((o.x0 + t, front + t, floor), (o.x1 - t, back - t, floor + 0.006))
+    base = bottom.board((o.x0 + t, front + t, floor), (o.x1 - t, back - t, floor + BOTTOM))
     return (*sides, *ends, base)
 
 

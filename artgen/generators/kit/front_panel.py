@@ -167,7 +167,6 @@ def _fluted(rect: Rect, back: float, thickness: float, pitch: float) -> Floats:
     radius = step / 2.0 / math.sin(half)
     reed = arc((0.0, 0.0), radius, -math.pi / 2.0 - half, -math.pi / 2.0 + half, 4)
     front = back - thickness + radius
-    rows = [
-        reed[(0 if k == 0 else 1) :] + (rect.x0 + (k + 0.5) * step, front) for k in range(count)
-    ]
+    middles = [np.array([rect.x0 + (k + 0.5) * step, front]) for k in range(count)]
+    rows = [reed[:1] + middles[0], *(reed[1:] + middle for middle in middles)]
     return np.concatenate([*rows, [(rect.x1, back), (rect.x0, back)]])

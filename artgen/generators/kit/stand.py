@@ -7,9 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from artgen.articulation.types import Body
+from artgen.core.mesh import Floats
 from artgen.generators.kit.board import Stock
 from artgen.geometry.profile import circle
 from artgen.geometry.solid import Solid, box, cylinder, hull, slab, union, wire
+
+TUBE_FILL = 0.29
+"""Share of steel in the section of a square tube 25 mm wide with walls of 2 mm."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,14 +65,20 @@ def round_legs(s: Stand, wood: Stock, metal: Stock) -> tuple[Body, ...]:
     head, foot, plate = s.girth / 2.0, 0.56 * s.girth / 2.0, 0.003
     for x, y, ox, oy in s.corners:
         rings = [
-            np.c_[circle(head, segments=14) + (x, y), np.full(14, s.height - plate)],
-            np.c_[circle(foot, segments=14) + (x + ox * s.splay, y + oy * s.splay), np.zeros(14)],
+            _ring(x, y, s.height - plate, head),
+            _ring(x + ox * s.splay, y + oy * s.splay, 0.0, foot),
         ]
         bodies += _leg(hull(np.concatenate(rings)), wood)
         bodies.append(
             metal.piece(cylinder(1.35 * head, plate, segments=16).at(x, y, s.height - plate))
         )
     return tuple(bodies)
+
+
+def _ring(x: float, y: float, z: float, radius: float) -> Floats:
+    """(14, 3) points of a level circle."""
+    around = circle(radius, segments=14)
+    return np.stack([around[:, 0] + x, around[:, 1] + y, np.full(14, z)], axis=1)
 
 
 def square_legs(s: Stand, wood: Stock, metal: Stock) -> tuple[Body, ...]:
@@ -119,41 +129,39 @@ def metal_frame(s: Stand, wood: Stock, metal: Stock) -> tuple[Body, ...]:
         ]
     for y in (front + 0.25 * (back - front), back - 0.25 * (back - front) - t):
         pieces.append(slab((-x + t, y, top), (x - t, y + t, s.height)))
-    return (metal.piece(union(pieces), contact=tuple(pieces)),)
+    hollow = Stock(surface=metal.surface, density=TUBE_FILL * metal.density, edge=metal.edge)
+    return (hollow.piece(union(pieces), contact=tuple(pieces)),)
 
 
 def hairpins(s: Stand, wood: Stock, metal: Stock) -> tuple[Body, ...]:
     """Three-rod legs bent from round steel, welded to square plates."""
-    bodies = []
-    rod, plate = 0.005, 0.004
+    bodies: list[Body] = []
+    rod, plate, spread = 0.005, 0.004, 0.06
+    top = s.height - plate
     for x, y, ox, oy in s.corners:
-        foot = np.array([x + ox * (s.splay + 0.02), y + oy * (s.splay + 0.02), rod * 1.1])
-        along = math.copysign(1.0, ox) if ox else 0.0
-        heads = (
-            [(x - along * 0.06, y), (x, y - oy * 0.06)] if along else [(x - 0.04, y), (x + 0.04, y)]
+        foot = np.array([x + ox * (s.splay + 0.02), y + oy * (s.splay + 0.02), 1.1 * rod])
+        heads = np.array(
+            [(x - ox * spread, y, top), (x, y - oy * spread, top)]
+            if ox
+            else [(x - 0.7 * spread, y, top), (x + 0.7 * spread, y, top)]
         )
-        top = s.height - plate
-        path = _hairpin(np.array([*heads[0], top]), foot, np.array([*heads[1], top]))
-        lower, upper = path.min(axis=0) - 0.8 * rod, path.max(axis=0) + 0.8 * rod
-        rods = wire(path, rod, sides=8) & slab(lower - 1.0, (*(upper[:2] + 1.0), top))
-        low, high = np.minimum(*np.array(heads)), np.maximum(*np.array(heads))
-        base = slab((*(low - 0.012), top), (*(high + 0.012), s.height))
-        center = (np.array([*heads[0], top]) + [*heads[1], top]) / 4.0 + foot / 2.0
-        contact = slab((*(center[:2] - 0.012), 0.0), (*(center[:2] + 0.012), top))
-        bodies += [metal.piece(rods, contact=(contact,)), metal.piece(base)]
+        low, high = heads.min(axis=0)[:2] - 0.012, heads.max(axis=0)[:2] + 0.012
+        rods = wire(_hairpin(heads[0], foot, heads[1]), rod, sides=8)
+        below = slab((-5.0, -5.0, -1.0), (5.0, 5.0, top))
+        middle = (heads.mean(axis=0) + foot)[:2] / 2.0
+        contact = slab((*(middle - 0.012), 0.0), (*(middle + 0.012), top))
+        plates = slab((*low, top), (*high, s.height))
+        bodies += [metal.piece(rods & below, contact=(contact,)), metal.piece(plates)]
     return tuple(bodies)
 
 
-def _hairpin(head: np.ndarray, foot: np.ndarray, tail: np.ndarray) -> np.ndarray:
-    """(N, 3) path down to a round bend at the foot and up again."""
-    across = tail - head
-    across = across / np.linalg.norm(across)
-    bend, steps = 0.009, np.linspace(0.0, math.pi, 6)
-    turn = [
-        foot + (0.0, 0.0, bend) - across * bend * math.cos(a) - np.array([0, 0, bend * math.sin(a)])
-        for a in steps
-    ]
-    return np.array([head + (0.0, 0.0, 0.002), *turn, tail + (0.0, 0.0, 0.002)])
+def _hairpin(head: Floats, foot: Floats, tail: Floats) -> Floats:
+    """(N, 3) path down to a round bend at the foot and up again; its ends lie 2 mm high."""
+    across, up = (tail - head) / np.linalg.norm(tail - head), np.array([0.0, 0.0, 1.0])
+    bend = 0.009
+    angles = np.linspace(0.0, math.pi, 6)[:, None]
+    turn = foot + bend * ((1.0 - np.sin(angles)) * up - np.cos(angles) * across)
+    return np.concatenate([[head + 0.002 * up], turn, [tail + 0.002 * up]])
 
 
 STANDS: Mapping[str, Callable[[Stand, Stock, Stock], tuple[Body, ...]]] = {
