@@ -2,23 +2,17 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import manifold3d as m3
 import numpy as np
 from numpy.typing import NDArray
 
-from artgen.core.mesh import Floats, Ints, TriMesh
-from artgen.geometry.separation import Surface, carried, inverted_poses, may_meet, surface_of
+from artgen.core.mesh import Floats, TriMesh
 from artgen.geometry.solid import Solid
 
 NEGLIGIBLE = 1e-12
 """m3; two boxes that share less cannot hide an overlap worth reporting (0.1 mm cubed)."""
-WORTH_A_PROOF = 3000
-"""Triangles times poses from which proving separation is faster than the booleans."""
-
-
-WORTH_A_CUT = 5
+WORTH_A_CUT = 3
 """Poses from which cutting both bodies to where they can meet is faster than whole booleans."""
 MARGIN = 1e-3
 """m; keeps the faces of the cut away from those of the other body."""
@@ -30,28 +24,15 @@ class Shape:
 
     Attributes:
         bodies: closed and outward, in any number.
-        triangles: (T, 3, 3) corners of each body's faces, m.
         points: (V, 3) vertices of all bodies, m, body after body.
         starts: (B,) row of each body's first vertex.
         rest: (B, 2, 3) bounds of each body, m.
     """
 
     bodies: tuple[m3.Manifold, ...]
-    triangles: tuple[Floats, ...]
     points: Floats
     starts: NDArray[np.intp]
     rest: Floats
-
-    @cached_property
-    def surfaces(self) -> dict[int, Surface]:
-        """Sorted triangles by body, filled as `surface` is asked."""
-        return {}
-
-    def surface(self, body: int) -> Surface:
-        """A body's triangles, sorted for proofs of separation."""
-        if body not in self.surfaces:
-            self.surfaces[body] = surface_of(self.triangles[body])
-        return self.surfaces[body]
 
     def boxes(self, object_from_rest: Floats) -> Floats:
         """(K, B, 2, 3) bounds of each body under each of (K, 4, 4) poses."""
@@ -78,8 +59,8 @@ class Overlap:
 def shape_of_solids(solids: Iterable[Solid]) -> Shape:
     """One body a solid."""
     listed = list(solids)
-    meshes = [solid.trimesh() for solid in listed]
-    return _shape([solid.manifold for solid in listed], [(m.vertices, m.faces) for m in meshes])
+    points = [solid.trimesh().vertices for solid in listed]
+    return _shape([solid.manifold for solid in listed], points)
 
 
 def shape_of_mesh(mesh: TriMesh) -> Shape:
@@ -87,21 +68,19 @@ def shape_of_mesh(mesh: TriMesh) -> Shape:
 
     A body that is not closed keeps its place with a status other than `NoError`; it never overlaps.
     """
-    manifolds, arrays = [], []
+    manifolds, points = [], []
     cuts = np.flatnonzero(np.diff(np.asarray(mesh.body))) + 1
     for faces in np.split(mesh.faces, cuts):
         first, last = int(faces.min()), int(faces.max()) + 1
         own = mesh.vertices[first:last].copy()  # manifold3d refuses read-only arrays.
         manifolds.append(m3.Manifold(m3.Mesh64(own, (faces - first).astype(np.uint64))))
-        arrays.append((own, faces - first))
-    return _shape(manifolds, arrays)
+        points.append(own)
+    return _shape(manifolds, points)
 
 
-def _shape(manifolds: Sequence[m3.Manifold], meshes: Sequence[tuple[Floats, Ints]]) -> Shape:
-    points = [vertices for vertices, _ in meshes]
+def _shape(manifolds: Sequence[m3.Manifold], points: Sequence[Floats]) -> Shape:
     return Shape(
         bodies=tuple(manifolds),
-        triangles=tuple(vertices[faces] for vertices, faces in meshes),
         points=np.concatenate(points),
         starts=np.cumsum([0, *(len(p) for p in points[:-1])]),
         rest=np.array([(p.min(axis=0), p.max(axis=0)) for p in points]),
@@ -123,9 +102,7 @@ def overlaps(
     """Pairs of movers (all if None) that interpenetrate, pose by pose, with the shared volume.
 
     Exact at the given poses: pairs of bodies are dropped only where their boxes, along the object's
-    axes or along those of either body at rest, share less than `NEGLIGIBLE`, or where no triangles
-    can meet. A body inside another without touching it is found at the first pose, and stays inside
-    while no triangles meet.
+    axes or along those of either body at rest, share less than `NEGLIGIBLE`.
     """
     owner = np.repeat(np.arange(len(movers)), [len(m.shape.bodies) for m in movers])
     boxes = np.concatenate([m.shape.boxes(m.poses) for m in movers], axis=1)
@@ -175,20 +152,25 @@ def _pair_overlaps(
     meeting &= _shared(carried(inverted_poses(b_from_a), box_b), box_a[None]) > NEGLIGIBLE
     volumes = np.zeros(len(b_from_a))
     for pair, (i, j) in enumerate(bodies.tolist()):
-        open_ = _unproven(a.shape, i, b.shape, j, b_from_a, meeting[:, pair])
+        open_ = meeting[:, pair]
         volumes[open_] += _common(a.shape.bodies[i], b.shape.bodies[j], b_from_a[open_])
     for pose in np.flatnonzero(volumes > 0.0).tolist():
         yield Overlap(pose=pose, first=a.name, second=b.name, volume=float(volumes[pose]))
 
 
-def _common(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> list[float]:
-    """m3 that two bodies share at each of (K, 4, 4) poses."""
+def _common(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> Floats:
+    """(K,) m3 that two bodies share at each of (K, 4, 4) poses."""
+    volumes = np.zeros(len(other_from_one))
+    meeting = np.ones(len(other_from_one), bool)
     if len(other_from_one) >= WORTH_A_CUT:
         one = _cut_to(one, carried(inverted_poses(other_from_one), _box(other)))
-        if one.is_empty():
-            return [0.0] * len(other_from_one)
-        other = _cut_to(other, carried(other_from_one, _box(one)))
-    return [float((one.transform(pose[:3]) ^ other).volume()) for pose in other_from_one]
+        other = other if one.is_empty() else _cut_to(other, carried(other_from_one, _box(one)))
+        if one.is_empty() or other.is_empty():
+            return volumes
+        meeting = _shared(carried(other_from_one, _box(one)), _box(other))[:, 0] > NEGLIGIBLE
+    for pose in np.flatnonzero(meeting):
+        volumes[pose] = (one.transform(other_from_one[pose, :3]) ^ other).volume()
+    return volumes
 
 
 def _box(body: m3.Manifold) -> Floats:
@@ -202,14 +184,18 @@ def _cut_to(body: m3.Manifold, path: Floats) -> m3.Manifold:
     return body ^ m3.Manifold.cube(upper - lower).translate(lower)
 
 
-def _unproven(
-    a: Shape, i: int, b: Shape, j: int, b_from_a: Floats, meeting: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
-    """(K,) poses of two bodies that only a boolean can decide."""
-    poses = np.flatnonzero(meeting)
-    if len(poses) * (len(a.triangles[i]) + len(b.triangles[j])) < WORTH_A_PROOF:
-        return meeting
-    open_ = meeting.copy()
-    open_[poses] = may_meet(a.surface(i), b.surface(j), b_from_a[poses])
-    open_[0] = meeting[0]  # one may be inside the other without touching it.
-    return open_
+def inverted_poses(poses: Floats) -> Floats:
+    """(K, 4, 4) inverses of rigid poses."""
+    inverse = np.zeros_like(poses)
+    inverse[:, 3, 3] = 1.0
+    inverse[:, :3, :3] = poses[:, :3, :3].transpose(0, 2, 1)
+    inverse[:, :3, 3:] = -inverse[:, :3, :3] @ poses[:, :3, 3:]
+    return inverse
+
+
+def carried(poses: Floats, boxes: Floats) -> Floats:
+    """(K, N, 2, 3) bounds of (N, 2, 3) boxes after each of (K, 4, 4) poses."""
+    middle, half = boxes.mean(axis=1), np.diff(boxes, axis=1)[:, 0] / 2.0
+    moved = middle @ poses[:, :3, :3].transpose(0, 2, 1) + poses[:, None, :3, 3]
+    reach = half @ np.abs(poses[:, :3, :3]).transpose(0, 2, 1)
+    return np.stack([moved - reach, moved + reach], axis=2)

@@ -203,6 +203,11 @@ def union(solids: Iterable[Solid]) -> Solid:
     return Solid(m3.Manifold.batch_boolean([s.manifold for s in solids], m3.OpType.Add))
 
 
+def loft(rings: ArrayLike) -> Solid:
+    """A skin through (K, N, 3) rings, counter-clockwise as seen from the last, with flat ends."""
+    return Solid(m3.Manifold(_skin(np.asarray(rings, float), closed=False)))
+
+
 def chamfered_box(
     size: Sequence[float], chamfer: float, *, at: Sequence[float] = (0.0, 0.0, 0.0)
 ) -> Solid:

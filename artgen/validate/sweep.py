@@ -38,9 +38,9 @@ class Sweep:
 
 Pair = tuple[int, int]
 Between = Mapping[Pair, tuple[str, ...]]
-Courses = Mapping[str, tuple[float, ...]]
+Courses = Mapping[str, tuple[float, float]]
 Course = tuple[Pair, tuple[tuple[float, ...], ...]]
-"""Two parts and the values that each joint between them takes."""
+"""Two parts and where each joint between them begins and ends, or begins alone."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +130,7 @@ def joints_between(base: str, joints: Sequence[Joint]) -> Between:
 def _moving(courses: Courses, between: Between, seen: set[Course]) -> list[Pair]:
     """Pairs whose relative pose changes over a sweep in a way not seen yet; marks them and where
     they begin as seen."""
-    still = {name for name, course in courses.items() if len(set(course)) == 1}
+    still = {name for name, (first, last) in courses.items() if first == last}
     pairs = []
     for pair, names in between.items():
         course: Course = (pair, tuple(courses[name] for name in names))
@@ -149,9 +149,9 @@ def _still(courses: Courses, between: Between, seen: set[Course]) -> list[Pair]:
 
 
 def _courses(sweep: Sweep, joints: Sequence[Joint]) -> Courses:
-    """The value of each joint at each state."""
-    values = [resolved(joints, state) for state in sweep.states]
-    return {joint.name: tuple(q[joint.name] for q in values) for joint in joints}
+    """The value of each joint at the first and the last state; between them it is even."""
+    ends = [resolved(joints, state) for state in (sweep.states[0], sweep.states[-1])]
+    return {joint.name: (ends[0][joint.name], ends[1][joint.name]) for joint in joints}
 
 
 def sweep_poses(base: str, joints: Sequence[Joint], sweep: Sweep) -> dict[str, Floats]:
