@@ -141,7 +141,7 @@ def test_boxes_of_moved_bodies_are_those_of_their_moved_vertices(
 def test_cutting_bodies_to_where_they_can_meet_changes_no_volume(
     axis: Triple, angle: float, start: Triple, end: Triple, make: str
 ) -> None:
-    """A rack or pipe on its way through a tub, at enough poses for a cut. Cut faces bring new vertices:
+    """A rack or pipe on its way through a tub, at enough poses for a cut. It brings new vertices:
     roundings of 1e-16 m over less than 1 m2 of surface, far below what is dropped as negligible."""
     moved, still = (rack() if make == "r" else pipe()), tub()
     turn = axis_angle_matrix(axis, angle)
