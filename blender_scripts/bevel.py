@@ -10,7 +10,8 @@ import numpy as np
 
 from artgen.core.mesh import Floats, Ints
 from artgen.finish_jobs import RoundJob, read_bodies, write_bodies
-from artgen.geometry.measure import moments, welded
+from artgen.geometry.measure import moments
+from blender_scripts.soundness import LEAST_HEIGHT, Body, is_sound, without_caps
 
 FLAT = math.radians(0.05)
 """Faces that meet at less than this are one plane."""
@@ -18,22 +19,11 @@ SHARP = math.radians(40.0)
 """Convex edges that turn by more than this are rounded; arcs are built in finer steps."""
 FINE_RADIUS = 0.0008
 """m; below it one segment (a chamfer) is all that a render can show."""
-DECIMALS = 7
-"""Finished vertices are rounded to 1e-7 m; a body must survive that."""
-LEAST_VOLUME_KEPT = 0.6
-"""A bevel that clamps itself to the body still keeps more than this: a cube rounded to a ball keeps
-pi / 6 = 0.52, which no design asks for."""
 LEAST_CUT = 0.06
 """Share of the asked volume that a visible bevel takes: a round of two segments takes about 0.55 of
 the chamfer's triangle, a third of the radius a ninth of that."""
 FAINT_CUT = 0.004
 """Share that a thin plate keeps, whose whole thickness is a twelfth of the diameter asked for."""
-LEAST_HEIGHT = 5e-7
-"""m; a triangle flatter than this has no dependable normal once rounded to 1e-7 m."""
-SLACK = 2e-6
-"""m by which a bevel may leave the old bounds: float32 at 1 m is 6e-8, times a few operations."""
-
-Body = tuple[Floats, Ints]
 
 
 def run(job: Mapping[str, Any], _threads: int) -> dict[str, Any]:
@@ -70,7 +60,7 @@ def rounded_body(vertices: Floats, faces: Ints, radius: float) -> Body | None:
         body, asked = _bevelled(vertices, faces, radius, shortest)
         if asked == 0.0:
             break
-        if is_sound(body, vertices, faces):
+        if is_sound(body, vertices, faces, radius):
             cut = moments(vertices[faces]).volume - moments(body[0][body[1]]).volume
             if cut >= LEAST_CUT * asked:
                 return body
@@ -126,9 +116,10 @@ def _triangulated(points: list[list[float]], polygons: list[list[int]]) -> Body:
     mesh = bmesh.new()
     try:
         _fill(mesh, points, polygons)
-        bmesh.ops.dissolve_degenerate(mesh, dist=1e-7, edges=list(mesh.edges))
+        bmesh.ops.dissolve_degenerate(mesh, dist=2.0 * LEAST_HEIGHT, edges=list(mesh.edges))
         bmesh.ops.triangulate(mesh, faces=list(mesh.faces))
-        return _arrays(mesh)
+        points, faces = _arrays(mesh)
+        return points, without_caps(points, faces)
     finally:
         mesh.free()
 
@@ -165,37 +156,3 @@ def _arrays(mesh: bmesh.types.BMesh) -> Body:
     points = np.array([vertex.co for vertex in mesh.verts], np.float64).reshape(-1, 3)
     corners = [[vertex.index for vertex in face.verts] for face in mesh.faces]
     return points, np.array(corners, np.int32).reshape(-1, 3)
-
-
-def is_sound(body: Body, vertices: Floats, faces: Ints) -> bool:
-    """True when `body` is a closed, outward 2-manifold of proper triangles that still fills the
-    sharp body it came from, and stays one after rounding to 1e-7 m."""
-    if len(body[1]) < 4 or not np.isfinite(body[0]).all():
-        return False
-    points, triangles = welded(np.round(body[0], DECIMALS), body[1])
-    if not (is_manifold(body[1]) and is_manifold(triangles)):
-        return False
-    outside = np.maximum(points.max(axis=0) - vertices.max(axis=0), 0.0)
-    outside = np.maximum(outside, vertices.min(axis=0) - points.min(axis=0))
-    if least_height(points[triangles]) < LEAST_HEIGHT:
-        return False
-    old, new = moments(vertices[faces]).volume, moments(points[triangles]).volume
-    return bool(outside.max() <= SLACK and LEAST_VOLUME_KEPT * old < new <= old * (1.0 + 1e-5))
-
-
-def least_height(corners: Floats) -> float:
-    """The smallest height over the longest side among (F, 3, 3) triangles, m."""
-    a, b, c = corners.transpose(1, 0, 2)
-    doubled = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    longest = np.linalg.norm(np.stack([b - a, c - b, a - c]), axis=2).max(axis=0)
-    return float((doubled / longest).min())
-
-
-def is_manifold(faces: Ints) -> bool:
-    """True when every edge is used once in each direction."""
-    if len(faces) == 0:
-        return False
-    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
-    size = int(edges.max()) + 1
-    forth, back = np.sort(edges @ (size, 1)), np.sort(edges @ (1, size))
-    return bool((np.diff(forth) > 0).all() and np.array_equal(forth, back))
