@@ -49,7 +49,8 @@ def validate(argv: Sequence[str]) -> int:
             if perf_counter() - began > QUIET_S:
                 progress.start()
     finally:
-        progress.stop()
+        if progress.live.is_started:
+            progress.stop()
     progress.console.print(f"{len(folders) - failed} of {len(folders)} bundles are valid")
     return 1 if failed else 0
 

@@ -32,7 +32,7 @@ def moved(boards: tuple[Corners, ...], x: float, y: float, z: float) -> tuple[Co
     both = (
         tuple(np.round(np.add(corner, shift), 7).tolist()) for pair in boards for corner in pair
     )
-    return tuple(zip(*[iter(both)] * 2, strict=True))  # type: ignore[arg-type]
+    return tuple(zip(*[iter(both)] * 2, strict=True))
 
 
 def scaled(obj: ArticulatedObject, factor: float) -> ArticulatedObject:

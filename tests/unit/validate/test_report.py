@@ -81,6 +81,7 @@ def test_the_command_names_every_bundle_and_exits_1(
     assert lines[0].split()[:2] == ["valid", ASSET]
     assert "files.file: asset.glb: missing" in "\n".join(lines)
     assert lines[-1] == "1 of 2 bundles are valid"
+    assert "" not in lines
 
 
 def test_reports_are_written_on_request_only(bundles: Path) -> None:
