@@ -98,7 +98,9 @@ def _panel(p: DishwasherParams, at: Layout, cuts: tuple[Solid, ...]) -> Body:
     if p.has_furniture_panel:
         solid = slab((-d.half_width, d.outer, d.skin_bottom), (d.half_width, d.seam, top))
     else:
-        solid = wrapped_panel(d, top=top, returns=min(top, d.top - CAP), sheet=RETURN, edge=0.012)
+        solid = wrapped_panel(
+            d, top=top, returns=d.top - (CAP if p.hidden_console else 0.0), sheet=RETURN, edge=0.012
+        )
     collision = slab((-d.half_width, d.outer, d.skin_bottom), (d.half_width, d.seam, d.top))
     furniture = p.has_furniture_panel
     return Body(

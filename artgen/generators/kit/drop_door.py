@@ -83,7 +83,7 @@ def wrapped_panel(
         (-door.half_width, door.outer, door.skin_bottom), (door.half_width, door.seam, top)
     )
     side = slab(
-        (door.half_width - sheet, door.seam - 0.001, door.bottom),
+        (door.half_width - sheet, door.seam, door.bottom),
         (door.half_width, door.inner - edge, returns),
     )
     return union([panel, side, side.mirrored("x")])
@@ -93,7 +93,7 @@ def _dish(door: DropDoor, half: float, low: float, high: float, depth: float) ->
     """A rounded pan with sloping sides, open at the inner face."""
     middle = np.array([(low + high) / 2.0, 0.0])
     mouth = rounded_rectangle(high - low, 2 * half, 0.030, segments=4) + middle
-    ground = rounded_rectangle(high - low - 0.024, 2 * half - 0.024, 0.020, segments=4) + middle
+    ground = rounded_rectangle(high - low - 0.014, 2 * half - 0.014, 0.024, segments=4) + middle
     levels = ((mouth, door.inner + 0.001), (ground, door.inner - depth))
     return hull([(x, y, z) for outline, y in levels for z, x in outline])
 
