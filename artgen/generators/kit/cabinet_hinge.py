@@ -9,7 +9,7 @@ from artgen.geometry.solid import Solid, cylinder, slab, union
 
 KNUCKLE = 0.004
 """Radius of a butt hinge's knuckle, m."""
-AXIS_AHEAD = KNUCKLE + 0.0005
+AXIS_AHEAD = KNUCKLE + 0.001
 """How far a butt hinge's axis lies before the door's face, m."""
 BUTT = 0.066
 """Height of a butt hinge, m."""

@@ -63,7 +63,7 @@ def _round_bar(h: Handle) -> Shape:
     bar = bar.at(-h.length / 2.0 - over, -h.standoff, 0.0)
     post = cylinder(0.8 * r, h.standoff, axis="y", segments=12).at(0.0, -h.standoff, 0.0)
     posts = [post.at(s * h.length / 2.0) for s in (-1.0, 1.0)]
-    return union([bar, *posts]), _bridge(h, over, 0.85 * r)
+    return union([bar, *posts]), _bridge(h, over - 0.85 * r, 0.85 * r)
 
 
 def _square_bar(h: Handle) -> Shape:

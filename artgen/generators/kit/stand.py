@@ -34,6 +34,10 @@ class Stand:
     splay: float
     girth: float
 
+    def lean(self, wanted: float, foot: float) -> float:
+        """How far a foot of radius `foot` may lie outside its head and stay under the body."""
+        return min(wanted, self.inset - foot)
+
     @property
     def corners(self) -> list[tuple[float, float, float, float]]:
         """(x, y, outwards x, outwards y) of the four legs, and of two more under long bodies."""
@@ -63,10 +67,11 @@ def round_legs(s: Stand, wood: Stock, metal: Stock) -> tuple[Body, ...]:
     """Turned legs that taper to the foot and lean outwards, on round mounting plates."""
     bodies: list[Body] = []
     head, foot, plate = s.girth / 2.0, 0.56 * s.girth / 2.0, 0.003
+    lean = s.lean(s.splay, foot)
     for x, y, ox, oy in s.corners:
         rings = [
             _ring(x, y, s.height - plate, head),
-            _ring(x + ox * s.splay, y + oy * s.splay, 0.0, foot),
+            _ring(x + ox * lean, y + oy * lean, 0.0, foot),
         ]
         bodies += _leg(hull(np.concatenate(rings)), wood)
         bodies.append(
@@ -137,9 +142,9 @@ def hairpins(s: Stand, wood: Stock, metal: Stock) -> tuple[Body, ...]:
     """Three-rod legs bent from round steel, welded to square plates."""
     bodies: list[Body] = []
     rod, plate, spread = 0.005, 0.004, 0.06
-    top = s.height - plate
+    top, lean = s.height - plate, s.lean(s.splay + 0.02, 3.0 * rod)
     for x, y, ox, oy in s.corners:
-        foot = np.array([x + ox * (s.splay + 0.02), y + oy * (s.splay + 0.02), 1.1 * rod])
+        foot = np.array([x + ox * lean, y + oy * lean, 1.1 * rod])
         heads = np.array(
             [(x - ox * spread, y, top), (x, y - oy * spread, top)]
             if ox
@@ -159,7 +164,7 @@ def _hairpin(head: Floats, foot: Floats, tail: Floats) -> Floats:
     """(N, 3) path down to a round bend at the foot and up again; its ends lie 2 mm high."""
     across, up = (tail - head) / np.linalg.norm(tail - head), np.array([0.0, 0.0, 1.0])
     bend = 0.009
-    angles = np.linspace(0.0, math.pi, 6)[:, None]
+    angles = np.linspace(0.0, math.pi, 7)[:, None]
     turn = foot + bend * ((1.0 - np.sin(angles)) * up - np.cos(angles) * across)
     return np.concatenate([[head + 0.002 * up], turn, [tail + 0.002 * up]])
 
