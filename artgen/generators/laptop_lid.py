@@ -1,123 +1,174 @@
-"""The lid of a laptop: shell, bezel, lit screen, webcam, bumpers, logo."""
+"""The upper half of a laptop: cover, picture in its bezel, seal, webcam, logo, lid barrels."""
 
-import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
 
 from artgen.articulation.types import Body, Decal, DraftPart
-from artgen.generators.kit.density import ALUMINIUM, GLASS, RUBBER
-from artgen.generators.laptop_shape import LID_GAP, LaptopShape
-from artgen.geometry.profile import rounded_rectangle
-from artgen.geometry.solid import Solid, cylinder, prism, slab, tube, union
+from artgen.core.mesh import Floats
+from artgen.generators.kit.density import ABS, ALUMINIUM, GLASS, RUBBER
+from artgen.generators.kit.lofted_shell import cover, plan
+from artgen.generators.laptop_layout import Layout
+from artgen.geometry.profile import circle, regular_polygon, rounded_rectangle
+from artgen.geometry.solid import Solid, prism, slab, union
 
-SHELL_DENSITY = 1000.0
-"""kg/m3; sheet metal around a display panel and air."""
-FACE = 0.0009
-"""m; thickness of the bezel."""
+RIM = 0.0011
+"""Wall of the cover around the bezel, m."""
+PANEL = 0.0009
+"""Thickness of the bezel, m."""
+REAR_CORNER = 0.003
+BREATH = 0.00015
+"""m that seals leave to the closed deck."""
 
 
-def lid_part(s: LaptopShape) -> DraftPart:
-    """Everything that turns."""
-    bodies = [
-        Body(
-            solid=_shell(s),
-            surface="shell",
-            density=SHELL_DENSITY,
-            edge=0.0006,
-            collision=_collision(s),
-        ),
-        _bezel(s),
-        _screen(s),
-        *_details(s),
-    ]
+def lid(at: Layout) -> DraftPart:
+    """As it lies closed: the picture looks down, its upper edge is at the front."""
+    bodies = [_cover(at), *_picture(at), *_seal(at), *_barrels(at), _webcam(at)]
+    if at.p.logo != "none":
+        bodies.append(_logo(at))
     return DraftPart(name="lid", label="lid", bodies=tuple(bodies))
 
 
-def _shell(s: LaptopShape) -> Solid:
-    """A plate with round front corners whose rear edge is a cylinder about the hinge axis."""
-    length = s.axis_y + s.half_depth
-    radius = s.p.corner_radius
-    outline = rounded_rectangle(2 * s.half_width, length, (radius, radius, 0, 0), segments=6)
-    plate = prism(outline, s.p.lid_thickness).at(0, s.axis_y - length / 2, s.lid_bottom)
-    edge = cylinder(s.barrel, 2 * s.half_width, axis="x", segments=24)
-    whole = plate | edge.at(-s.half_width, s.axis_y, s.axis_z)
-    return whole - union([s.notch(span) for span in s.hinge_spans])
-
-
-def _face(
-    s: LaptopShape, inset: float, back: float, radius: float, low: float, high: float
-) -> Solid:
-    """A rounded sheet on the lid's underside from z = low to high above it."""
-    front = -s.half_depth + inset
-    outline = rounded_rectangle(2 * (s.half_width - inset), back - front, radius, segments=5)
-    return prism(outline, high - low).at(0, (front + back) / 2, s.lid_bottom + low)
-
-
-def _bezel(s: LaptopShape) -> Body:
-    radius = max(0.001, s.p.corner_radius - 0.0012)
-    sheet = _face(s, 0.0012, s.notch_front - 0.0025, radius, 0.0, FACE)
-    return Body(solid=sheet, surface="bezel", density=GLASS)
-
-
-def _screen(s: LaptopShape) -> Body:
-    """The lit panel; its picture stands upright when the lid is open."""
-    left, top = -s.half_width + s.p.bezel_side, -s.half_depth + s.p.bezel_top
-    bottom = s.notch_front - s.p.bezel_chin
-    panel = slab((left, top, s.lid_bottom), (-left, bottom, s.lid_bottom + 0.0005))
-    decal = Decal(
-        origin=(left, bottom, s.lid_bottom),
-        right=(1.0, 0.0, 0.0),
-        up=(0.0, -1.0, 0.0),
-        size=(-2 * left, bottom - top),
+def _cover(at: Layout) -> Body:
+    """The outer shell with a recess for the bezel and one for the logo."""
+    x, y, (low, high) = at.width / 2.0, (0.0, at.lid_depth), at.lid_z
+    radii = (at.p.corner, REAR_CORNER)
+    solid = cover(x=x, y=y, z=(low, high), radii=radii, crown=at.crown)
+    solid = solid - prism(plan(x, *y, radii, inset=RIM), PANEL + 0.002).at(z=low - 0.002)
+    if at.p.logo != "none":
+        solid = solid - _logo_shape(at, low=high - 0.0004, high=high + 0.001)
+    return Body(
+        solid=solid,
+        surface="shell",
+        density=at.style.lid_density * at.p.packing,
+        edge=0.0004,
+        collision=(slab((-x, 0.0, low), (x, at.lid_depth, high)),),
     )
-    return Body(solid=panel, surface="screen", density=GLASS, decal=decal)
 
 
-def screen_size(s: LaptopShape) -> tuple[float, float]:
-    """Width and height of the lit panel, m."""
-    top, bottom = -s.half_depth + s.p.bezel_top, s.notch_front - s.p.bezel_chin
-    return 2 * (s.half_width - s.p.bezel_side), bottom - top
+def _picture(at: Layout) -> list[Body]:
+    """The bezel fills the recess around the picture; glass lies level with it, plastic stands
+    before it."""
+    low, r = at.lid_z[0], at.screen
+    radii = (at.p.corner, REAR_CORNER)
+    around = plan(at.width / 2.0, 0.0, at.lid_depth, radii, inset=RIM)
+    hole = rounded_rectangle(*r.size, 0.0004, segments=1) + r.middle
+    sink = 0.0 if at.p.bezel == "glass" else 0.0005
+    image = Decal(
+        origin=(r.x0, r.y1, low + sink), right=(1.0, 0.0, 0.0), up=(0.0, -1.0, 0.0), size=r.size
+    )
+    return [
+        Body(
+            solid=prism(around, PANEL, holes=[hole]).at(z=low),
+            surface="bezel",
+            density=GLASS if at.p.bezel == "glass" else ABS,
+        ),
+        Body(
+            solid=prism(hole, PANEL - sink).at(z=low + sink),
+            surface="screen",
+            density=GLASS,
+            decal=image,
+        ),
+    ]
 
 
-def _details(s: LaptopShape) -> list[Body]:
-    bodies = _logo(s)
-    y = -s.half_depth + 0.006
-    for x in (-s.half_width + 0.010, s.half_width - 0.010):
-        dot = cylinder(0.0022, 0.4 * LID_GAP + 0.0003, segments=12)
-        place = dot.at(x, y - 0.001, s.lid_bottom - 0.4 * LID_GAP)
-        bodies.append(Body(solid=place, surface="rubber", density=RUBBER))
-    if s.p.webcam:
-        lens = cylinder(0.0013, 0.0004, segments=16).at(
-            0, -s.half_depth + 0.0014 + s.p.bezel_top / 2, s.lid_bottom
+def _seal(at: Layout) -> list[Body]:
+    """What keeps the lid off the deck: a ring of rubber, or pads."""
+    low = at.lid_z[0]
+    height = at.p.gap - BREATH
+    if at.p.seal == "ring":
+        x, radii = at.width / 2.0, (at.p.corner, REAR_CORNER)
+        rings = [plan(x, 0.0, at.lid_depth, radii, inset=RIM + d) for d in (0.0001, 0.0014)]
+        solids = [prism(rings[0], height, holes=[rings[1]]).at(z=low - height)]
+    else:
+        pad = rounded_rectangle(0.010, 0.0026, 0.0012, segments=3)
+        x, near = at.width / 2.0 - 0.022, 0.0035
+        places = [(-x, near), (x, near), (-x, at.lid_depth - near), (x, at.lid_depth - near)]
+        if at.screen_size[0] > 0.30:
+            places += [(-0.30 * at.width, near), (0.30 * at.width, near)]
+        solids = [prism(pad, height).at(u, v, low - height) for u, v in sorted(set(places))]
+    return [Body(solid=solid, surface="rubber", density=RUBBER) for solid in solids]
+
+
+def _webcam(at: Layout) -> Body:
+    """A lens in the middle of the upper bezel, level with it."""
+    radius = min(0.0017, 0.30 * at.screen.y0)
+    lens = prism(circle(radius, segments=14), 0.0005)
+    return Body(
+        solid=lens.at(0.0, 0.52 * at.screen.y0 + 0.0006, at.lid_z[0] - 0.00005),
+        surface="lens",
+        density=GLASS,
+    )
+
+
+def _barrels(at: Layout) -> list[Body]:
+    """Knuckles with the arms that hold them to the cover."""
+    low, y = at.lid_z[0] + 0.0003, at.axis_y
+    bodies = []
+    for left, right in at.barrels.lid:
+        arm = slab((left, at.lid_depth, low), (right, y, at.arm_top))
+        bodies.append(
+            Body(
+                solid=arm | at.barrels.knuckle((left, right)),
+                surface="hinge",
+                density=ALUMINIUM if at.p.hinge == "twin" else ABS,
+                edge=0.0004,
+                collision=(at.barrels.core((left, right)), arm),
+            )
         )
-        bodies.append(Body(solid=lens, surface="metal", density=GLASS))
     return bodies
 
 
-def _logo(s: LaptopShape) -> list[Body]:
-    """An inlay in the middle of the back, flush with it."""
-    depth = 0.0003
-    size = 0.035 * s.p.width / 0.33
-    shapes = {
-        "disc": lambda: cylinder(size / 2, depth, segments=32),
-        "ring": lambda: tube(size / 2, size / 3, depth, segments=32),
-        "bar": lambda: prism(rounded_rectangle(1.6 * size, size / 4, size / 9), depth),
-    }
-    if s.p.logo not in shapes:
-        return []
-    inlay = shapes[s.p.logo]().at(0, -0.004, s.lid_top - depth)
-    return [Body(solid=inlay, surface="metal", density=ALUMINIUM)]
+def _logo(at: Layout) -> Body:
+    """An inlay a hair proud of the cover."""
+    high = at.lid_z[1]
+    solid = _logo_shape(at, low=high - 0.0004, high=high + 0.00005)
+    return Body(solid=solid, surface="logo", density=ALUMINIUM)
 
 
-def _collision(s: LaptopShape) -> tuple[Solid, ...]:
-    """The plate up to the notches, and between them what fits inside the rear edge's cylinder."""
-    plate = slab(
-        (-s.half_width, -s.half_depth, s.lid_bottom), (s.half_width, s.notch_front, s.lid_top)
-    )
-    inner = s.barrel / math.sqrt(2)
-    ends = [
-        slab(
-            (low + 0.0002, s.notch_front, s.axis_z - inner),
-            (high - 0.0002, s.axis_y + inner, s.axis_z + inner),
-        )
-        for low, high in s.lid_segments()
-    ]
-    return (plate, *ends)
+def _logo_shape(at: Layout, *, low: float, high: float) -> Solid:
+    """The mark on the back, read by someone behind the open lid."""
+    drawn = [prism(outline, high - low) for outline in LOGOS[at.p.logo](at.width)]
+    aside = 0.36 * at.width if at.p.logo == "word" else 0.0
+    ahead = 0.30 if at.p.logo == "word" else 0.0
+    return union(drawn).at(aside, (0.5 - ahead) * at.lid_depth, low)
+
+
+def _disc(width: float) -> list[Floats]:
+    return [circle(0.045 * width, segments=32)]
+
+
+def _hexagon(width: float) -> list[Floats]:
+    return [regular_polygon(6, 0.055 * width)]
+
+
+def _bars(width: float) -> list[Floats]:
+    """Three slanted bars of growing length."""
+    bars = []
+    for k in range(3):
+        x, half, tall = (k - 1) * 0.032 * width, 0.010 * width, (0.030 + 0.012 * k) * width
+        lean = 0.35 * tall
+        low, high = x - lean, x + lean
+        corners = [
+            (low - half, -tall),
+            (low + half, -tall),
+            (high + half, tall),
+            (high - half, tall),
+        ]
+        bars.append(np.array(corners))
+    return bars
+
+
+def _word(width: float) -> list[Floats]:
+    """Five blocks, as a small word looks from afar."""
+    size = 0.009 * width
+    block = rounded_rectangle(1.5 * size, 2.0 * size, 0.4 * size, segments=2)
+    return [block + np.array((k * 2.1 * size, 0.0)) for k in range(-2, 3)]
+
+
+LOGOS: Mapping[str, Callable[[float], list[Floats]]] = {
+    "disc": _disc,
+    "hexagon": _hexagon,
+    "bars": _bars,
+    "word": _word,
+}
