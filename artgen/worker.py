@@ -27,6 +27,9 @@ ATTEMPTS = 2
 START_TIMEOUT_S = 120.0
 """Importing Blender takes 1.7 s warm; a cold disk and a busy machine take much longer."""
 WATCH_EVERY_S = 0.1
+DENOISER = {"OIDN_SET_AFFINITY": "0"}
+"""OIDN pins its threads to the first cores unless told not to, so that all workers share one core;
+and it takes all cores unless told how many, whatever Cycles is given."""
 LOG_TAIL = 1500
 """Characters of the log that an error message quotes."""
 
@@ -117,8 +120,7 @@ class BlenderWorker:
     def _start(self) -> subprocess.Popen[bytes]:
         self.log.parent.mkdir(parents=True, exist_ok=True)
         command = [sys.executable, "-m", "blender_scripts.worker", "--serve", str(self.threads)]
-        # OIDN pins its threads to the first cores unless told not to; workers would share one core.
-        environment = {**os.environ, "OIDN_SET_AFFINITY": "0", "PYTHONHASHSEED": "0"}
+        environment = {**os.environ, **DENOISER, "OIDN_NUM_THREADS": str(self.threads)}
         with self.log.open("ab") as sink:
             self._process = subprocess.Popen(
                 command,
