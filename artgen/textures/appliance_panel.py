@@ -70,7 +70,7 @@ def panel_layout(
         knob=Spot(center=center, size=(dial, dial)) if has_knob else None,
         buttons=row,
         brand=(0.058, 0.5 * height),
-        cap=min(0.0115, 0.32 * height),
+        cap=min(0.0115, 0.32 * height, 0.0205 * width),
     )
 
 
