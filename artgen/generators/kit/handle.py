@@ -155,7 +155,7 @@ REACH: Mapping[str, Callable[[Handle], float]] = {
     "bar": lambda h: h.standoff + h.radius,
     "square": lambda h: h.standoff + h.radius,
     "bow": lambda h: h.standoff + h.radius,
-    "knob": lambda h: 0.85 * h.standoff,
+    "knob": lambda h: 0.816 * h.standoff,
     "cup": lambda h: 0.9 * h.standoff,
 }
 SPAN: Mapping[str, Callable[[Handle], float]] = {
