@@ -163,11 +163,13 @@ def _common(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> Flo
     volumes = np.zeros(len(other_from_one))
     meeting = np.ones(len(other_from_one), bool)
     if len(other_from_one) >= WORTH_A_CUT:
-        one = _cut_to(one, carried(inverted_poses(other_from_one), _box(other)))
+        one_from_other = inverted_poses(other_from_one)
+        one = _cut_to(one, carried(one_from_other, _box(other)))
         other = other if one.is_empty() else _cut_to(other, carried(other_from_one, _box(one)))
         if one.is_empty() or other.is_empty():
             return volumes
         meeting = _shared(carried(other_from_one, _box(one)), _box(other))[:, 0] > NEGLIGIBLE
+        meeting &= _shared(carried(one_from_other, _box(other)), _box(one))[:, 0] > NEGLIGIBLE
     for pose in np.flatnonzero(meeting):
         volumes[pose] = (one.transform(other_from_one[pose, :3]) ^ other).volume()
     return volumes

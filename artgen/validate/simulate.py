@@ -1,13 +1,13 @@
 """L4: MuJoCo moves parts where we do, nothing interpenetrates on the way, and rest holds."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 
 import mujoco
 import numpy as np
 
 from artgen.articulation.kinematics import forward_kinematics, resolved
-from artgen.articulation.types import Joint, State
+from artgen.articulation.types import Joint
 from artgen.core.mesh import Floats
 from artgen.core.stream import Stream
 from artgen.export.bundle import Bundle
@@ -29,10 +29,14 @@ def kinematics(subject: Subject) -> Iterator[Finding]:
     rng = Stream(0, "validate", bundle.asset_id).generator()
     free = [joint for joint in bundle.joints if joint.mimic is None]
     states = [{j.name: _random_q(j, rng) for j in free} for _ in range(RANDOM_POSES)]
+    ours = [forward_kinematics(bundle.parts[0].name, bundle.joints, state) for state in states]
     for file in (MJCF, URDF):
         model = subject.model(file)
         data = mujoco.MjData(model)
-        errors = np.max([_pose_errors(bundle, model, data, state) for state in states], axis=0)
+        errors = np.zeros(len(bundle.parts))
+        for state, poses in zip(states, ours, strict=True):
+            set_state(model, data, resolved(bundle.joints, state))
+            errors = np.maximum(errors, _pose_errors(bundle, data, poses))
         for part, error in zip(bundle.parts, errors.tolist(), strict=True):
             if not error <= bounds.KINEMATICS.value:
                 yield Finding(
@@ -50,12 +54,8 @@ def _random_q(joint: Joint, rng: np.random.Generator) -> float:
     return float(rng.uniform(lower, upper))
 
 
-def _pose_errors(
-    bundle: Bundle, model: mujoco.MjModel, data: mujoco.MjData, state: State
-) -> list[float]:
+def _pose_errors(bundle: Bundle, data: mujoco.MjData, ours: Mapping[str, Floats]) -> list[float]:
     """Largest difference of position (m) or rotation matrix of each part's link frame."""
-    set_state(model, data, resolved(bundle.joints, state))
-    ours = forward_kinematics(bundle.parts[0].name, bundle.joints, state)
     pivots = {joint.child: np.array(joint.origin) for joint in bundle.joints}
     errors = []
     for part in bundle.parts:
