@@ -54,6 +54,8 @@ class Generate:
     """Joint states per asset."""
     size: int = 128
     """Image width and height, px."""
+    bake_ao: bool = False
+    """Also bake ambient occlusion onto the atlas of every GLB; about 5 CPU s an asset."""
     render: bool = True
     """Render and pack shards after the assets are made; --no-render stops at validated bundles."""
 
@@ -66,7 +68,8 @@ def generate(argv: Sequence[str]) -> int:
             f"--workers {command.workers}, --views {command.views} and --states {command.states} "
             f"must be at least 1, --size {command.size} at least 16"
         )
-    tasks = plan(command.categories or tuple(rule_names()), command.count, command.seed)
+    names = command.categories or tuple(rule_names())
+    tasks = plan(names, command.count, command.seed, occlusion=command.bake_ao)
     with opened(command.out, seed=command.seed, need_bytes=len(tasks) * BYTES_PER_ASSET) as folder:
         outcomes = build_assets(folder, tasks, workers=command.workers)
         code = 0

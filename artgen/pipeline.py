@@ -48,6 +48,7 @@ class AssetTask:
     category: str
     index: int
     seed: int
+    occlusion: bool = False
 
     @property
     def asset_id(self) -> str:
@@ -69,7 +70,9 @@ class Outcome:
     seconds: Mapping[str, float] = dataclasses.field(default_factory=dict)
 
 
-def plan(categories: Sequence[str], count: int, seed: int) -> list[AssetTask]:
+def plan(
+    categories: Sequence[str], count: int, seed: int, *, occlusion: bool = False
+) -> list[AssetTask]:
     """`count` tasks dealt out to the categories in turn; a larger count only adds tasks.
 
     Raises:
@@ -80,7 +83,12 @@ def plan(categories: Sequence[str], count: int, seed: int) -> list[AssetTask]:
     for category in categories:
         load_rule(category)
     return [
-        AssetTask(category=categories[k % len(categories)], index=k // len(categories), seed=seed)
+        AssetTask(
+            category=categories[k % len(categories)],
+            index=k // len(categories),
+            seed=seed,
+            occlusion=occlusion,
+        )
         for k in range(count)
     ]
 
@@ -98,11 +106,17 @@ def check_kept(folder: RunFolder, tasks: Sequence[AssetTask]) -> set[str]:
         if not manifest.exists():
             continue
         found = json.loads(manifest.read_text(encoding="utf-8"))
-        expected = {"seed": task.seed, "rule": digests[task.category], "artgen": __version__}
+        expected = {
+            "seed": task.seed,
+            "rule": digests[task.category],
+            "artgen": __version__,
+            "occlusion": task.occlusion,
+        }
         actual = {
             "seed": found.get("seed"),
             "rule": found.get("rule", {}).get("digest"),
             "artgen": found.get("versions", {}).get("artgen"),
+            "occlusion": found.get("occlusion"),
         }
         if differing := [key for key in expected if expected[key] != actual[key]]:
             raise UsageError(
@@ -146,7 +160,13 @@ def make_asset(task: AssetTask, tools: Toolbox) -> Outcome:
     messages: list[str] = []
 
     def fill(partial: Path) -> None:
-        write_bundle(obj, partial, library=tools.textures, worker=tools.blender)
+        write_bundle(
+            obj,
+            partial,
+            library=tools.textures,
+            worker=tools.blender,
+            occlusion=task.occlusion,
+        )
         watch.lap("export")
         report = validate_bundle(partial)
         write_json(partial / "report.json", report.as_json())
@@ -187,6 +207,7 @@ def built(
         provenance={
             "seed": task.seed,
             "index": task.index,
+            "occlusion": task.occlusion,
             "rule": {"version": rule.version, "digest": rule.digest},
             "params": plain(drawn.params),
         },

@@ -4,6 +4,7 @@ glTF is y up. Everything in the extras is in the frame of its node: y up, at the
 that a reader needs no knowledge of our frames.
 """
 
+import dataclasses
 import json
 import struct
 import tempfile
@@ -19,6 +20,7 @@ from artgen.core.errors import ExportError
 from artgen.core.jsonio import plain
 from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
+from artgen.export import layout
 from artgen.export.kinematics import FileJoint, FileKinematics, FileMass, vector
 from artgen.export.layout import GLB, pivots
 from artgen.export.surface_images import SurfaceImages
@@ -28,6 +30,7 @@ from artgen.finish_jobs import (
     GltfJob,
     GltfPart,
     GltfSurface,
+    OcclusionBake,
     write_gltf_arrays,
 )
 from artgen.geometry.normals import corner_normals
@@ -43,8 +46,13 @@ def write_glb(
     folder: Path,
     images: Mapping[str, SurfaceImages],
     worker: BlenderWorker,
+    *,
+    occlusion: bool = False,
 ) -> None:
     """Have Blender write `folder`/asset.glb; images lie in `folder` already.
+
+    Args:
+        occlusion: also bake ambient occlusion onto the atlas, about 5 CPU s.
 
     Raises:
         WorkerError: Blender failed.
@@ -53,6 +61,9 @@ def write_glb(
         arrays = Path(scratch) / "arrays.npz"
         write_gltf_arrays(arrays, {part.name: part_arrays(part, obj) for part in obj.parts})
         job = gltf_job(obj, folder, images, arrays)
+        if occlusion:
+            baked = folder.resolve() / layout.occlusion_path(obj.asset_id)
+            job = dataclasses.replace(job, occlusion=OcclusionBake(output=str(baked)))
         worker.run(plain(job), timeout_s=TIMEOUT_S)
 
 

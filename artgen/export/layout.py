@@ -40,6 +40,11 @@ def atlas_path(asset_id: str) -> str:
     return f"{TEXTURES}/{asset_id}_atlas.png"
 
 
+def occlusion_path(asset_id: str) -> str:
+    """The ambient occlusion on the atlas, where it was asked for."""
+    return f"{TEXTURES}/{asset_id}_occlusion.png"
+
+
 @dataclass(frozen=True, kw_only=True)
 class BoxPiece:
     """A collision cuboid along the axes; m, object frame at rest."""

@@ -33,6 +33,7 @@ def write_bundle(
     library: TextureLibrary,
     worker: BlenderWorker,
     thumbnail: bytes | None = None,
+    occlusion: bool = False,
 ) -> None:
     """Fill `folder`, which exists, with the asset in every format; the manifest comes last.
 
@@ -42,6 +43,7 @@ def write_bundle(
         library: makes and keeps the images of surfaces.
         worker: writes the GLB.
         thumbnail: PNG file content; rendered when not given.
+        occlusion: bake ambient occlusion onto the atlas, for the GLB.
 
     Raises:
         ExportError: the object has no texture coordinates or holds a number that is not finite.
@@ -51,7 +53,7 @@ def write_bundle(
     images = copy_images(obj, folder, library)
     write_bytes(folder / layout.atlas_path(obj.asset_id), baked_atlas(obj, library))
     write_model_files(obj, folder, images)
-    write_glb(obj, folder, images, worker)
+    write_glb(obj, folder, images, worker, occlusion=occlusion)
     if thumbnail is None:
         thumbnail = thumbnail_png(obj, glb=folder / layout.GLB, worker=worker)
     write_bytes(folder / layout.THUMBNAIL, thumbnail)
