@@ -47,7 +47,7 @@ def _clear_of(z: float, taken: tuple[float, ...]) -> float:
 def cup_hinge(
     *, edge: float, jamb: float, sign: float, back: float, face: float, z: float, stock: Stock
 ) -> Hinges:
-    """A concealed hinge: cup and root in the door, plate and arm on the board beside it.
+    """A concealed hinge: rim of the cup and root on the door, plate and arm on the board beside.
 
     Args:
         edge: x of the door's hinge edge, m.
@@ -58,12 +58,11 @@ def cup_hinge(
         z: height of the hinge.
         stock: metal.
     """
-    cup_x = edge + sign * 0.0225
-    cup = cylinder(0.0175, 0.0118, axis="y", segments=20).at(cup_x, back - 0.0118, z)
+    rim = cylinder(0.0175, 0.0006, axis="y", segments=20).at(edge + sign * 0.0225, back, z)
     root = _block(jamb + sign * 0.0025, jamb + sign * 0.0125, back, back + 0.004, z, 0.007)
     plate = _block(jamb, jamb + sign * 0.0025, face + 0.022, face + 0.066, z, 0.016)
     arm = _block(jamb + sign * 0.0025, jamb + sign * 0.0115, face + 0.006, face + 0.074, z, 0.0065)
-    return Hinges(door=(stock.piece(cup | root),), base=(stock.piece(plate | arm),))
+    return Hinges(door=(stock.piece(rim | root),), base=(stock.piece(plate | arm),))
 
 
 def _block(x0: float, x1: float, y0: float, y1: float, z: float, half: float) -> Solid:
@@ -73,7 +72,7 @@ def _block(x0: float, x1: float, y0: float, y1: float, z: float, half: float) ->
 def butt_hinge(
     *, jamb: float, gap: float, sign: float, face: float, z: float, stock: Stock
 ) -> Hinges:
-    """Two leaves let into door and jamb, and a knuckle of three before the face.
+    """Two leaves between door and jamb, and a knuckle of three before the face.
 
     Args:
         jamb: x of the jamb beside the door, m.
@@ -89,7 +88,7 @@ def butt_hinge(
 
     def knuckle(k: int) -> Solid:
         bottom, top = low + k * third + (play if k else 0.0), low + (k + 1) * third
-        return cylinder(KNUCKLE, top - bottom, segments=14).at(axis_x, axis_y, bottom)
+        return cylinder(KNUCKLE, top - bottom, segments=12).at(axis_x, axis_y, bottom)
 
     def leaf(x0: float, x1: float, lows: tuple[int, ...]) -> Solid:
         plate = _block(x0, x1, face + 0.0005, face + 0.016, z, BUTT / 2.0)
@@ -102,9 +101,8 @@ def butt_hinge(
         ]
         return union([plate, *tails])
 
-    into_gap = gap / 2.0 - 0.0005
-    door = leaf(jamb + sign * (gap / 2.0 + 0.0005), jamb + sign * (gap + 0.001), (1,))
-    frame = leaf(jamb - sign * 0.001, jamb + sign * into_gap, (0, 2))
+    door = leaf(jamb + sign * (gap / 2.0 + 0.0005), jamb + sign * gap, (1,))
+    frame = leaf(jamb, jamb + sign * (gap / 2.0 - 0.0005), (0, 2))
     return Hinges(
         door=(stock.piece(union([door, knuckle(1)])),),
         base=(stock.piece(union([frame, knuckle(0), knuckle(2)])),),

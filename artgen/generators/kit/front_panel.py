@@ -57,7 +57,7 @@ class FrontMaker:
             rounded = Stock(
                 surface=self.stock.surface,
                 density=self.stock.density,
-                edge=self.stock.edge if style == "grooved" else 0.0,
+                edge=0.0007 if style == "grooved" else 0.0,
             )
             return (rounded.piece(solid, contact=contact, grain="z"),)
         hole = rect.shrunk(self.frame)
@@ -152,7 +152,7 @@ class FrontMaker:
 
 def _grooved(rect: Rect, back: float, thickness: float, pitch: float) -> Floats:
     """Plan of a board with V grooves 5 mm wide and 3 mm deep, evenly spread."""
-    front, count = back - thickness, max(2, round(rect.width / pitch))
+    front, count = back - thickness, max(2, round(rect.width / max(pitch, 0.04)))
     xs = np.linspace(rect.x0, rect.x1, count + 1)[1:-1]
     cuts = [[(x - 0.0025, front), (x, front + 0.003), (x + 0.0025, front)] for x in xs]
     ends = [[(rect.x0, front)], *cuts, [(rect.x1, front), (rect.x1, back), (rect.x0, back)]]

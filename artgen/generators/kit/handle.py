@@ -139,9 +139,9 @@ def _cup(h: Handle) -> Shape:
 
 def _ellipsoid(a: float, b: float, c: float) -> Solid:
     """Half axes along x, y, z; a turned one, stretched."""
-    profile = arc((0.0, 0.0), 1.0, -math.pi / 2.0, math.pi / 2.0, 10)
+    profile = arc((0.0, 0.0), 1.0, -math.pi / 2.0, math.pi / 2.0, 8)
     profile[[0, -1], 0] = 0.0
-    return revolve(profile, segments=24).transformed(np.diag([a, b, c, 1.0]))
+    return revolve(profile, segments=20).transformed(np.diag([a, b, c, 1.0]))
 
 
 STYLES: Mapping[str, Callable[[Handle], Shape]] = {
