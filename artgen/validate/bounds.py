@@ -63,7 +63,9 @@ SETTLE_FLOOR = Bound(1e-6, "rad or m", "solver tolerance of 1e-12 over 1000 step
 
 GROUND = Bound(0.001, "m", "rounding an extreme edge pulls the bounds back by its radius at most")
 HINGE_SHARE = Bound(0.05, "of the part's diagonal", "hinges sit on an edge of what they turn")
-HINGE_SLACK = Bound(0.002, "m", "plus the joint gap that every hinge leaves")
+HINGE_SLACK = Bound(
+    0.01, "m", "plus the joint gap, and half of what a handle adds to the box before a door's face"
+)
 TRAVEL = Bound(1.0, "of the part's length", "a slide that travels further leaves its rails")
 CLOSED_PLAY = Bound(
     0.005, "m", "seals and bumpers leave 1 to 3 mm; a part that rests open has more"

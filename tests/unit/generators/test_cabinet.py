@@ -14,6 +14,7 @@ from artgen.articulation.states import required_state
 from artgen.articulation.types import Draft, DraftPart, Joint
 from artgen.core.stream import Stream
 from artgen.generators import cabinet
+from artgen.generators.kit.cabinet_hinge import AXIS_AHEAD
 from artgen.generators.kit.cabinet_kinds import KINDS
 from artgen.generators.kit.front_layout import Cell
 from artgen.geometry.clearance import Mover, Shape, overlaps, shape_of_solids
@@ -177,6 +178,18 @@ def test_drawers_travel_most_of_their_length_and_doors_open_wide(seed: int) -> N
         else:
             assert math.radians(70.0) <= joint.limit.upper <= math.radians(112.0)
             assert joint.axis[:2] == (0.0, 0.0)
+
+
+@every_seed
+def test_hinges_lie_along_an_edge_of_their_door(seed: int) -> None:
+    """At the face's outer edge, or on the knuckles before it: within the thickness of a front."""
+    draft = drafted(seed)
+    for part, joint in movers_of(draft):
+        if joint.type == "revolute":
+            lower = part.bodies[0].solid.bounds[0]
+            aside = np.abs(part_bounds(part)[:, 0] - joint.origin[0]).min()
+            assert aside <= 0.004
+            assert abs(joint.origin[1] - lower[1]) <= AXIS_AHEAD + ROUNDING
 
 
 @every_seed
