@@ -112,7 +112,7 @@ def render_and_pack(command: Generate) -> int:
             *("--workers", str(command.workers)),
         ],
     )
-    return max(rendered, run_command("shard", ["--out", out]))
+    return max(rendered, run_command("shard", [out]))
 
 
 COLUMNS = (

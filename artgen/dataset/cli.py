@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import tyro
 
@@ -17,7 +18,7 @@ from artgen.run_folder import locked
 class Shard:
     """Pack rendered samples into WebDataset shards and write the catalog."""
 
-    out: Path = Path("out")
+    out: Annotated[Path, tyro.conf.Positional] = Path("out")
     """Folder of the run; receives shards/ and catalog/."""
     per_shard: int = PER_SHARD
     """Samples per shard; the same number gives the same shards."""
@@ -29,7 +30,7 @@ def shard(argv: Sequence[str]) -> int:
     if command.per_shard < 1:
         raise UsageError(f"--per-shard {command.per_shard} packs nothing; ask for at least 1")
     if not command.out.is_dir():
-        raise UsageError(f"{command.out}: no such folder; --out names a run of `artgen generate`")
+        raise UsageError(f"{command.out}: no such folder; name a run of `artgen generate`")
     with locked(command.out):
         staged, _ = packable(command.out)
         ids = [f"{path.parent.name}_{path.stem}" for path in staged]

@@ -14,7 +14,7 @@ from tests.unit.dataset.runs import OPENING_DEG, made_run
 def test_shards_and_catalog_are_made_and_what_was_left_out_is_said(tmp_path, capsys):
     """Exit code 1: done, but some assets are missing."""
     out = made_run(tmp_path / "out")
-    assert shard(["--out", str(out), "--per-shard", "2"]) == 1
+    assert shard([str(out), "--per-shard", "2"]) == 1
     said = capsys.readouterr().out
     assert f"{len(OPENING_DEG)} samples" in said
     assert "left out: laptop_000004: L3.clearance: lid: lid hits base" in said
@@ -26,10 +26,10 @@ def test_the_exit_code_is_zero_when_every_asset_was_packed(tmp_path):
     out = made_run(tmp_path / "out")
     for place in ("failed/laptop/000004", "failed/laptop/000005", "assets/cabinet/000001"):
         (out / place).rename(tmp_path / place.replace("/", "_"))
-    assert shard(["--out", str(out)]) == 0
+    assert shard([str(out)]) == 0
 
 
-@pytest.mark.parametrize("words", [["--per-shard", "0"], ["--out", "nowhere"]])
+@pytest.mark.parametrize("words", [["--per-shard", "0"], ["nowhere"]])
 def test_bad_options_are_refused(tmp_path, monkeypatch, words):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "out").mkdir()
@@ -39,7 +39,7 @@ def test_bad_options_are_refused(tmp_path, monkeypatch, words):
 
 def test_a_folder_without_samples_is_refused(tmp_path):
     with pytest.raises(ShardError, match="holds no sample"):
-        shard(["--out", str(tmp_path)])
+        shard([str(tmp_path)])
     assert not (tmp_path / "shards").exists()
 
 
@@ -57,7 +57,7 @@ def test_a_folder_in_use_is_refused(tmp_path, monkeypatch):
     ) as holder:
         assert holder.stdout.readline() == "held\n"
         with pytest.raises(UsageError, match="another artgen run"):
-            shard(["--out", str(tmp_path)])
+            shard([str(tmp_path)])
         holder.stdin.close()
     with locked(tmp_path):
         pass
