@@ -108,7 +108,7 @@ def _ink(keys: SurfaceSpec, p: LaptopParams) -> KeyInk:
 def style_suits_size(p: LaptopParams) -> bool:
     """Gaming laptops begin at 15 inches, chromebooks end there, ultrabooks end at 16."""
     smallest, largest = {
-        "ultrabook": (12.0, 16.5), "business": (12.0, 17.5), "gaming": (15.0, 17.5),
+        "ultrabook": (11.0, 16.5), "business": (12.0, 17.5), "gaming": (15.0, 17.5),
         "chromebook": (11.0, 15.7),
     }[p.style]  # fmt: skip
     return smallest <= p.screen_inch <= largest

@@ -22,7 +22,9 @@ WELL_MARGIN = 0.0012
 WELL_FLOOR = 0.0004
 FULL_PITCH = 0.01905
 """m; three quarters of an inch, the pitch of full-size keys."""
-LEAST_PALM = 0.060
+SMALL_BEZEL = 0.7
+"""Growth of the side bezels for each inch below 13.3."""
+LEAST_PALM = 0.066
 """m from the keyboard to the front edge."""
 
 
@@ -159,8 +161,9 @@ class Layout:
 
     @cached_property
     def width(self) -> float:
-        """Of base and lid."""
-        return self.screen_size[0] + 2.0 * self.p.bezel_side * self.style.bezel
+        """Of base and lid; small screens sit in wide bezels, because keys cannot shrink."""
+        small = 1.0 + SMALL_BEZEL * max(0.0, 13.3 - self.p.screen_inch)
+        return self.screen_size[0] + 2.0 * self.p.bezel_side * self.style.bezel * small
 
     @cached_property
     def keyboard(self) -> KeyboardStyle:

@@ -55,7 +55,10 @@ def _picture(at: Layout) -> list[Body]:
     hole = rounded_rectangle(*r.size, 0.0004, segments=1) + r.middle
     sink = 0.0 if at.p.bezel == "glass" else 0.0005
     image = Decal(
-        origin=(r.x0, r.y1, low + sink), right=(1.0, 0.0, 0.0), up=(0.0, -1.0, 0.0), size=r.size
+        origin=(r.x0, r.y1, low + sink),
+        right=(1.0, 0.0, 0.0),
+        up=(0.0, -1.0, 0.0),
+        size=at.screen_size,
     )
     return [
         Body(
