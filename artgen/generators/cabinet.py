@@ -1,28 +1,20 @@
 """Cabinets: sideboards, chests, base units, vanities, nightstands, media units, tall cupboards."""
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 
-from artgen.articulation.types import Axis, Body, Draft, DraftPart
+from artgen.articulation.types import Body, Draft, DraftPart
 from artgen.core.surface import SurfaceSpec
+from artgen.generators.kit import cabinet_params
+from artgen.generators.kit.basin import basin, tap
 from artgen.generators.kit.board import Stock
-from artgen.generators.kit.cabinet_design import BUMPER, Design
-from artgen.generators.kit.cabinet_hinge import AXIS_AHEAD
-from artgen.generators.kit.cabinet_kinds import KINDS, PATTERNS, Site, columns_of, picked
+from artgen.generators.kit.cabinet_design import Design
 from artgen.generators.kit.cabinet_movers import Works, cell_works
-from artgen.generators.kit.carcass import Case, back_panel, case_boards, inner_boards
+from artgen.generators.kit.cabinet_params import MILLED, CabinetParams, case_of, layout
+from artgen.generators.kit.carcass import back_panel, case_boards, inner_boards
 from artgen.generators.kit.density import GLASS, MDF, OAK, PARTICLEBOARD, PLYWOOD, STEEL, ZINC
-from artgen.generators.kit.front_layout import (
-    Cell,
-    Joinery,
-    Node,
-    Rect,
-    Separator,
-    Split,
-    slice_face,
-)
-from artgen.generators.kit.front_panel import FrontMaker, Style
+from artgen.generators.kit.front_layout import Cell
+from artgen.generators.kit.front_panel import FrontMaker
 from artgen.generators.kit.handle import Handle
 from artgen.generators.kit.stand import STANDS, Stand
 
@@ -35,178 +27,12 @@ FINISHES: Mapping[str, tuple[str, str]] = {
     "white_and_paint": ("melamine", "paint"),
 }
 """Surfaces of the case and of the fronts."""
-MILLED = ("milled", "cut_out")
+CERAMIC = 2300.0
+"""Vitreous china, kg/m3."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class CabinetParams:
-    """Lengths in m; factors multiply the kind's usual sizes; tuples hold one draw a column."""
-
-    kind: str
-    width_factor: float
-    depth_factor: float
-    height_factor: float
-    mounting: str
-    columns: int
-    column_weight: tuple[float, ...]
-    column_pattern: tuple[float, ...]
-    rows: tuple[int, ...]
-    symmetric: bool
-    hinge_left: tuple[bool, ...]
-    growth: float
-    top_drawer: float
-    inner_drawers: int
-    most_movers: int
-    stand: str
-    plinth_height: float
-    leg_height: float
-    leg_girth: float
-    leg_splay: float
-    stand_inset: float
-    board: float
-    top: str
-    top_thickness: float
-    overhang: float
-    style: Style
-    front_thickness: float
-    frame: float
-    pitch: float
-    bars: int
-    grain: Axis
-    gap: float
-    grip: str
-    handle_length: float
-    handle_radius: float
-    standoff: float
-    grip_edge: float
-    runner: str
-    wall: float
-    shelf_pitch: float
-    travel: float
-    opening_deg: float
-    drawer_friction: float
-    door_friction: float
-    finish: str
-    worktop: bool
-
-    @property
-    def width(self) -> float:
-        """Of the case."""
-        return KINDS[self.kind].width * self.width_factor
-
-    @property
-    def depth(self) -> float:
-        """From the fronts' faces to the back."""
-        return KINDS[self.kind].depth * self.depth_factor
-
-    @property
-    def height(self) -> float:
-        """From the floor to the top."""
-        return KINDS[self.kind].height * self.height_factor
-
-    @property
-    def stand_height(self) -> float:
-        """Under the case."""
-        if self.stand == "wall":
-            return 0.0
-        return self.plinth_height if self.stand in ("plinth", "panel") else self.leg_height
-
-    @property
-    def inset(self) -> bool:
-        """Whether fronts sit between the boards."""
-        return self.mounting == "inset"
-
-
-def case_of(p: CabinetParams) -> Case:
-    """The case that the params describe."""
-    face = -p.depth / 2.0
-    return Case(
-        outside=Rect(x0=-p.width / 2.0, x1=p.width / 2.0, z0=p.stand_height, z1=p.height),
-        front=face if p.inset else face + p.front_thickness + BUMPER,
-        back=p.depth / 2.0,
-        board=p.board,
-        panel=0.006,
-        top_thickness=p.top_thickness if p.top == "overhang" else p.board,
-        top=p.top,
-        overhang=p.overhang,
-        overhang_from=face,
-        foot=0.0 if p.stand == "panel" else p.stand_height,
-    )
-
-
-def layout(p: CabinetParams) -> tuple[list[Cell], list[Separator]]:
-    """The divided face."""
-    case = case_of(p)
-    joinery = Joinery(board=p.board, rail=0.02 if p.inset else 0.0, by_cover=not p.inset)
-    return slice_face(_tree(p, case), case.opening, case.face, joinery)
-
-
-def _tree(p: CabinetParams, case: Case) -> Node:
-    """Columns side by side, each divided by the pattern that was drawn for it."""
-    kind = KINDS[p.kind]
-    count = columns_of(kind, p.columns, p.width)
-    drawn = [min(k, count - 1 - k) if p.symmetric else k for k in range(count)]
-    weights = tuple(p.column_weight[k] for k in drawn)
-    nodes = []
-    for column, k in enumerate(drawn):
-        outer_left, outer_right = column == 0, column == count - 1
-        site = Site(
-            width=case.opening.width * weights[column] / sum(weights),
-            height=case.opening.height,
-            hinge_left=p.hinge_left[k] if outer_left == outer_right else outer_left,
-            rows=p.rows[k],
-            growth=p.growth,
-            top_drawer=p.top_drawer,
-            inner=p.inner_drawers,
-        )
-        nodes.append(PATTERNS[picked(kind.patterns, p.column_pattern[k])](site))
-    return nodes[0] if count == 1 else Split(axis="x", weights=weights, nodes=tuple(nodes))
-
-
-def movers(p: CabinetParams) -> int:
-    """How many drawers and doors there are, inner drawers counted in full."""
-    each = {"drawer": 1, "door_left": 1, "door_right": 1, "pair": 2, "open": 0}
-    return sum(each[cell.leaf.kind] + cell.leaf.inner for cell in layout(p)[0])
-
-
-def fronts_are_usable(p: CabinetParams) -> bool:
-    """Drawers hold something, doors are neither slits nor barn doors, niches take a hand."""
-    for cell in layout(p)[0]:
-        o = cell.opening
-        kind = cell.leaf.kind
-        if kind == "drawer" and not (0.095 <= o.height <= 0.37 and 0.2 <= o.width <= 1.1):
-            return False
-        wide = o.width / 2.0 if kind == "pair" else o.width
-        if kind not in ("drawer", "open") and not (0.21 <= wide <= 0.62 and o.height >= 0.18):
-            return False
-        if kind == "open" and min(o.height, o.width) < 0.12:
-            return False
-    return True
-
-
-def doors_clear_their_gap(p: CabinetParams) -> bool:
-    """The free rear corner of a door swings outwards by depth^2 / (2 width); gaps must allow it."""
-    ahead = AXIS_AHEAD if p.inset else 0.0
-    depth = p.front_thickness + ahead
-    for cell in layout(p)[0]:
-        width = (cell.opening if p.inset else cell.cover).width
-        kind = cell.leaf.kind
-        if kind == "pair":
-            width /= 2.0
-        room = p.gap - 0.0005 if p.inset and kind != "pair" else p.gap / 2.0 - 0.0003
-        if kind in ("pair", "door_left", "door_right") and depth**2 / (2.0 * width) > room:
-            return False
-    return True
-
-
-INVARIANTS: Mapping[str, Callable[[CabinetParams], bool]] = {
-    "stand_suits_kind": lambda p: p.stand in KINDS[p.kind].stands,
-    "milled_grips_need_plain_fronts": lambda p: p.grip not in MILLED or p.style == "slab",
-    "few_moving_parts": lambda p: KINDS[p.kind].fewest <= movers(p) <= p.most_movers,
-    "fronts_are_usable": fronts_are_usable,
-    "doors_clear_their_gap": doors_clear_their_gap,
-}
 PARAMS = CabinetParams
+INVARIANTS = cabinet_params.INVARIANTS
 
 
 def build(p: CabinetParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
@@ -222,6 +48,7 @@ def build(p: CabinetParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
         *inner_boards(design.case, separators, stocks["case"]),
         back_panel(design.case, stocks["back"], _cable_holes(p, cells)),
         *_stand(p, design),
+        *(_basin(p, design) if p.basin and p.kind == "vanity" else ()),
     )
     base = DraftPart(name="base", label="base", bodies=case + works.base)
     parts = (base, *works.parts)
@@ -286,6 +113,7 @@ def stocks_of(p: CabinetParams) -> dict[str, Stock]:
         "back": Stock(surface=case, density=MDF, edge=0.0),
         "metal": Stock(surface="metal", density=ZINC, edge=0.0),
         "steel": Stock(surface="steel", density=STEEL, edge=0.0),
+        "ceramic": Stock(surface="ceramic", density=CERAMIC, edge=0.003),
         "pane": Stock(surface="glass", density=GLASS, edge=0.0),
     }
 
@@ -296,6 +124,16 @@ def _cable_holes(p: CabinetParams, cells: list[Cell]) -> tuple[tuple[float, floa
         return ()
     niches = [cell.opening for cell in cells if cell.leaf.kind == "open"]
     return tuple((niche.middle[0], niche.z0 + 0.06) for niche in niches)
+
+
+def _basin(p: CabinetParams, design: Design) -> tuple[Body, ...]:
+    """A basin near the front of the top, the tap between it and the wall."""
+    width, depth = min(0.55, p.width - 0.16), min(0.36, p.depth - 0.12)
+    front, top = -p.depth / 2.0 + 0.03, p.height
+    place = (0.0, front + depth / 2.0, top)
+    bodies = basin((width, depth, 0.12), place, design.stocks["ceramic"], design.stocks["metal"])
+    foot = (0.0, front + depth + 0.045, top)
+    return (*bodies, tap(foot, rise=0.25, reach=0.15, metal=design.stocks["metal"]))
 
 
 def _stand(p: CabinetParams, design: Design) -> tuple[Body, ...]:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from artgen.articulation.types import Body
 from artgen.core.errors import GeometryError
+from artgen.generators.kit.basin import basin, tap
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.cabinet_hinge import (
     AXIS_AHEAD,
@@ -198,3 +199,13 @@ def test_bars_are_centered_between_their_screws() -> None:
     body = handle.at(0.0, 0.0, 0.0, "x", METAL)
     assert body.solid.bounds[:, 0].sum() == pytest.approx(0.0, abs=1e-12)
     assert math.isclose(body.solid.extent[0], handle.span)
+
+
+def test_basins_are_open_and_stand_on_their_place() -> None:
+    bowl, waste = basin((0.5, 0.35, 0.12), (0.1, 0.0, 0.8), WOOD, METAL)
+    room = slab((-0.09, -0.11, 0.825), (0.29, 0.11, 0.95))
+    assert bowl.solid.bounds[0] == pytest.approx([-0.15, -0.175, 0.8])
+    assert (room & union([bowl.solid, waste.solid, *bowl.collision])).is_empty
+    pipe = tap((0.1, 0.2, 0.8), rise=0.25, reach=0.15, metal=METAL)
+    assert len(pipe.solid.pieces()) == 1
+    assert (pipe.solid & bowl.solid).is_empty
