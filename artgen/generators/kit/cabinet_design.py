@@ -16,8 +16,8 @@ BUMPER = 0.002
 """m; between a covering front and the case."""
 SCREWS = (0.032, 0.064, 0.096, 0.128, 0.160, 0.192, 0.256, 0.320)
 """Distances of handle screws that are sold, m."""
-EYE = 1.25
-"""m; doors whose lower edge lies above 0.8 of this have their handle below, others above."""
+HIGH = 1.0
+"""m; doors that begin above have their handle at their lower end, lower ones at their upper."""
 Side = Literal["left", "right"]
 
 
@@ -144,7 +144,7 @@ def grip_height(rect: Rect, span: float) -> float:
     low, high = rect.z0 + margin, rect.z1 - margin
     if low > high:
         return rect.middle[1]
-    wanted = 0.95 if rect.height > 0.8 else (low if rect.z0 > 0.8 * EYE else high)
+    wanted = 0.95 if rect.height > 0.8 else (low if rect.z0 > HIGH else high)
     return min(high, max(low, wanted))
 
 

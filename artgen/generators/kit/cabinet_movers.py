@@ -1,7 +1,7 @@
 """Drawers and doors of a cabinet: each with its joint and what it needs in the base."""
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from artgen.articulation.types import Body, DraftPart, Joint, Limit, Precondition
 from artgen.generators.kit.cabinet_design import (
@@ -40,7 +40,7 @@ class Works:
     parts: tuple[DraftPart, ...] = ()
     joints: tuple[Joint, ...] = ()
     base: tuple[Body, ...] = ()
-    preconditions: tuple[Precondition, ...] = field(default=())
+    preconditions: tuple[Precondition, ...] = ()
 
     def __add__(self, other: "Works") -> "Works":
         return Works(
@@ -60,7 +60,7 @@ def cell_works(design: Design, cell: Cell, number: int) -> Works:
             design, cell.opening, drawer_front(design, rect), design.back, f"drawer_{number}"
         )
     if kind == "open":
-        return Works(base=_shelves(design, cell.opening, design.case.front + 0.012, ())[0])
+        return Works(base=_shelves(design, cell.opening, design.case.front + 0.012)[0])
     if kind == "pair":
         return _pair(design, cell, number)
     side: Side = "left" if kind == "door_left" else "right"
@@ -69,7 +69,7 @@ def cell_works(design: Design, cell: Cell, number: int) -> Works:
     room, inner = cell.opening, Works()
     if cell.leaf.inner and free_side:
         room, inner = _inner_drawers(design, cell, name, number)
-    shelves, taken = _shelves(design, room, _behind_door(design), ())
+    shelves, taken = _shelves(design, room, _behind_door(design))
     door = _door(design, rect, cell.opening, side, name=name, free_side=free_side, taken=taken)
     return door + Works(base=shelves + _stops(design, cell.opening, (_free_x(rect, side),))) + inner
 
@@ -77,7 +77,7 @@ def cell_works(design: Design, cell: Cell, number: int) -> Works:
 def _pair(design: Design, cell: Cell, number: int) -> Works:
     rect = design.front_rect(cell)
     left, right = halves(rect, design.gap)
-    shelves, taken = _shelves(design, cell.opening, _behind_door(design), ())
+    shelves, taken = _shelves(design, cell.opening, _behind_door(design))
     pair: tuple[tuple[Rect, Side, bool, str], ...] = (
         (left, "left", cell.at_left, "a"),
         (right, "right", cell.at_right, "b"),
@@ -111,7 +111,7 @@ def _stops(design: Design, opening: Rect, xs: tuple[float, ...]) -> tuple[Body, 
 
 
 def _shelves(
-    design: Design, room: Rect, front: float, fixed: tuple[float, ...]
+    design: Design, room: Rect, front: float
 ) -> tuple[tuple[Body, ...], tuple[float, ...]]:
     """Loose shelves and the heights that hinges should avoid."""
     heights = shelf_heights(room, design.shelf_pitch)
@@ -123,7 +123,7 @@ def _shelves(
             stock=design.stocks["shelf"], metal=design.stocks["steel"],
         )
     )  # fmt: skip
-    return bodies, (*fixed, *(z + SHELF / 2.0 for z in heights))
+    return bodies, tuple(z + SHELF / 2.0 for z in heights)
 
 
 def _drawer(

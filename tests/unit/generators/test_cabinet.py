@@ -250,9 +250,8 @@ def test_nothing_fixed_hides_a_front(seed: int) -> None:
 
 
 def test_draws_differ_in_kind_layout_and_parts() -> None:
-    words = [
-        topology(drawn(seed).params, cabinet_params.layout(drawn(seed).params)[0]) for seed in SEEDS
-    ]
+    params = [drawn(seed).params for seed in SEEDS]
+    words = [topology(p, cabinet_params.layout(p)[0]) for p in params]
     layouts = {word[1] for word in words}
     assert len(set(words)) >= 38
     assert len(layouts) >= 22
