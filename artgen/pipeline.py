@@ -2,20 +2,16 @@
 
 import dataclasses
 import json
-import logging
-import multiprocessing
 import os
 import shutil
 import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import as_completed
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from pebble import ProcessExpired, ProcessPool
 
 from artgen import __version__
 from artgen.articulation.types import ArticulatedObject
@@ -27,18 +23,16 @@ from artgen.export import write_bundle
 from artgen.finish import RawBody, finish
 from artgen.finish_jobs import RoundJob, read_bodies, write_bodies
 from artgen.generators import load_builder
+from artgen.pool import run_in_processes
 from artgen.rules import CategoryRule, load_rule, sample
 from artgen.run_folder import RunFolder
 from artgen.textures.library import TextureLibrary
 from artgen.validate import validate_bundle
 from artgen.worker import BlenderWorker
 
-log = logging.getLogger(__name__)
-
 ROUND_TIMEOUT_S = 60.0
 ASSET_TIMEOUT_S = 600.0
 """An asset takes 3 to 5 s; a process that hangs for this long is killed and its asset set aside."""
-ATTEMPTS = 2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -263,35 +257,12 @@ def _task_in_worker(task: AssetTask) -> Outcome:
 
 def run_tasks(folder: RunFolder, tasks: Sequence[AssetTask], *, workers: int) -> Iterator[Outcome]:
     """Outcomes as they come; a process that dies fails its asset alone, after a second try."""
-    waiting, attempt = list(tasks), 1
-    with ProcessPool(
-        max_workers=workers,
+    return run_in_processes(
+        tasks,
+        _task_in_worker,
+        workers=workers,
         initializer=_open_toolbox,
         initargs=(folder,),
-        context=multiprocessing.get_context("spawn"),
-    ) as pool:
-        try:
-            while waiting:
-                futures = {
-                    pool.schedule(_task_in_worker, args=(task,), timeout=ASSET_TIMEOUT_S): task
-                    for task in waiting
-                }
-                waiting = []
-                for future in as_completed(futures):
-                    task = futures[future]
-                    try:
-                        yield future.result()
-                    except (ProcessExpired, TimeoutError) as error:
-                        if attempt < ATTEMPTS:
-                            log.warning("%s attempt %d: %s", task.asset_id, attempt, error)
-                            waiting.append(task)
-                        else:
-                            yield Outcome(
-                                asset_id=task.asset_id,
-                                status="failed",
-                                message=f"process died: {error}",
-                            )
-                attempt += 1
-        except BaseException:
-            pool.stop()
-            raise
+        timeout_s=ASSET_TIMEOUT_S,
+        lost=lambda task, cause: Outcome(asset_id=task.asset_id, status="failed", message=cause),
+    )

@@ -1,15 +1,11 @@
 """Many assets to staged samples: processes side by side, resumable."""
 
 import json
-import logging
-import multiprocessing
+import os
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
-
-from pebble import ProcessExpired, ProcessPool
 
 from artgen.core.errors import ArtgenError, ShardError, UsageError
 from artgen.core.jsonio import plain, write_json
@@ -17,16 +13,14 @@ from artgen.dataset import open_shard
 from artgen.export import read_bundle
 from artgen.export.layout import MANIFEST
 from artgen.export.manifest import versions
+from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
 from artgen.worker import BlenderWorker
 from renders.asset import render_asset
 from renders.plan import Settings
 
-log = logging.getLogger(__name__)
-
 ASSET_TIMEOUT_S = 3600.0
 """Beyond every limit of the Blender worker itself; a process that hangs for this long is killed."""
-ATTEMPTS = 2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,32 +87,15 @@ def run_tasks(
     """Outcomes as they come; cores beyond the number of processes become render threads."""
     shutil.rmtree(scratch(folder), ignore_errors=True)  # of a run that was killed
     processes = max(1, min(workers, len(tasks)))
-    waiting = list(tasks)
-    with ProcessPool(
-        max_workers=processes,
+    return run_in_processes(
+        tasks,
+        _task_in_worker,
+        workers=processes,
         initializer=_open_worker,
         initargs=(folder, max(1, workers // processes)),
-        context=multiprocessing.get_context("spawn"),
-    ) as pool:
-        try:
-            for attempt in range(1, ATTEMPTS + 1):
-                futures = {
-                    pool.schedule(_task_in_worker, args=(task,), timeout=ASSET_TIMEOUT_S): task
-                    for task in waiting
-                }
-                waiting = []
-                for future in as_completed(futures):
-                    task = futures[future]
-                    try:
-                        yield future.result()
-                    except (ProcessExpired, TimeoutError) as error:
-                        log.warning("%s attempt %d: %s", task.asset_id, attempt, error)
-                        waiting.append(task)
-        except BaseException:
-            pool.stop()
-            raise
-    for task in waiting:
-        yield Rendered(asset_id=task.asset_id, message="its process died twice")
+        timeout_s=ASSET_TIMEOUT_S,
+        lost=lambda task, cause: Rendered(asset_id=task.asset_id, message=cause),
+    )
 
 
 def scratch(folder: RunFolder) -> Path:
@@ -147,8 +124,7 @@ _worker: tuple[BlenderWorker, Path] | None = None
 
 def _open_worker(folder: RunFolder, threads: int) -> None:
     global _worker
-    name = multiprocessing.current_process().name.lower()
-    log_file = folder.logs / f"blender-render-{name}.log"
+    log_file = folder.logs / f"blender-render-{os.getpid()}.log"
     _worker = BlenderWorker(log_file, threads=threads), scratch(folder)
 
 

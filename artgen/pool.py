@@ -1,0 +1,72 @@
+"""Tasks over processes: outcomes as they come, and a process that dies costs its own task alone."""
+
+import logging
+import multiprocessing
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import as_completed
+from typing import Any, Protocol, TypeVar
+
+from pebble import ProcessExpired, ProcessPool
+
+log = logging.getLogger(__name__)
+
+ATTEMPTS = 2
+"""A task whose process died or hung is tried once more in a fresh one."""
+
+
+class Task(Protocol):
+    """What can be sent to a process: picklable, with a name for messages."""
+
+    @property
+    def asset_id(self) -> str:
+        """Which asset the task makes."""
+        ...
+
+
+T = TypeVar("T", bound=Task)
+Outcome = TypeVar("Outcome")
+
+
+def run_in_processes(
+    tasks: Sequence[T],
+    work: Callable[[T], Outcome],
+    *,
+    workers: int,
+    initializer: Callable[..., None],
+    initargs: tuple[Any, ...],
+    timeout_s: float,
+    lost: Callable[[T, str], Outcome],
+) -> Iterator[Outcome]:
+    """`work(task)` for every task in spawned processes, in the order of completion.
+
+    Args:
+        work: a function of a module; turns the expected faults of a task into its outcome.
+        initializer: run once in each process with `initargs`.
+        timeout_s: a process that works longer on one task is killed.
+        lost: the outcome of a task whose process died in every attempt, told the cause.
+    """
+    with ProcessPool(
+        max_workers=max(1, min(workers, len(tasks))),
+        initializer=initializer,
+        initargs=initargs,
+        context=multiprocessing.get_context("spawn"),
+    ) as pool:
+        try:
+            waiting = {task: "" for task in tasks}
+            for attempt in range(1, ATTEMPTS + 1):
+                futures = {
+                    pool.schedule(work, args=(task,), timeout=timeout_s): task for task in waiting
+                }
+                waiting = {}
+                for future in as_completed(futures):
+                    task = futures[future]
+                    try:
+                        yield future.result()
+                    except (ProcessExpired, TimeoutError) as error:
+                        log.warning("%s attempt %d: %s", task.asset_id, attempt, error)
+                        waiting[task] = str(error)
+        except BaseException:
+            pool.stop()
+            raise
+    for task, cause in waiting.items():
+        yield lost(task, f"its process died {ATTEMPTS} times: {cause}")
