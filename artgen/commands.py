@@ -21,6 +21,7 @@ from artgen.pipeline import AssetTask, Outcome, check_kept, plan, run_tasks
 from artgen.progress import progress
 from artgen.rules import load_rule, rule_names
 from artgen.run_folder import RunFolder, opened, run_log
+from artgen.system_libraries import check_libraries
 
 BYTES_PER_ASSET = 5_000_000
 """A bundle stays under 3 MB; its sample and its share of the shards add about 1 MB."""
@@ -68,6 +69,7 @@ def generate(argv: Sequence[str]) -> int:
             f"--workers {command.workers}, --views {command.views} and --states {command.states} "
             f"must be at least 1, --size {command.size} at least 16"
         )
+    check_libraries()
     names = command.categories or tuple(rule_names())
     tasks = plan(names, command.count, command.seed, occlusion=command.bake_ao)
     with opened(command.out, seed=command.seed, need_bytes=len(tasks) * BYTES_PER_ASSET) as folder:

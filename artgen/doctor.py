@@ -1,8 +1,6 @@
 """`artgen doctor`: is this machine ready, and how to mend what is not."""
 
-import importlib.util
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -15,27 +13,7 @@ import psutil
 import tyro
 from rich.console import Console
 
-DEBIAN_PACKAGES = {
-    "libX11": "libx11-6",
-    "libXrender": "libxrender1",
-    "libXfixes": "libxfixes3",
-    "libXi": "libxi6",
-    "libXxf86vm": "libxxf86vm1",
-    "libxkbcommon": "libxkbcommon0",
-    "libxcb": "libxcb1",
-    "libXext": "libxext6",
-    "libXau": "libxau6",
-    "libXdmcp": "libxdmcp6",
-    "libSM": "libsm6",
-    "libICE": "libice6",
-    "libGL": "libgl1",
-    "libEGL": "libegl1",
-    "libGLX": "libglx0",
-    "libGLdispatch": "libglvnd0",
-    "libgomp": "libgomp1",
-    "libdbus-1": "libdbus-1-3",
-}
-"""Debian 12's package for each library that Blender's module links to."""
+from artgen.system_libraries import debian_packages, missing_libraries
 
 PINNED = ("bpy", "numpy", "manifold3d", "trimesh", "xatlas", "mujoco-core", "usd-core")
 DISK_GB = 2.0
@@ -109,22 +87,6 @@ def _packages() -> Finding:
             missing.append(name)
     remedy = f"run `make install`; missing: {', '.join(missing)}" if missing else ""
     return Finding("packages", ", ".join(found), remedy)
-
-
-def missing_libraries() -> list[str]:
-    """Shared libraries that Blender's module links to and the loader does not find."""
-    spec = importlib.util.find_spec("bpy")
-    if spec is None or spec.origin is None or shutil.which("ldd") is None:
-        return []
-    listing = subprocess.run(
-        ["ldd", spec.origin], capture_output=True, text=True, check=False
-    ).stdout
-    return re.findall(r"^\s*(\S+) => not found", listing, flags=re.MULTILINE)
-
-
-def debian_packages(libraries: Sequence[str]) -> list[str]:
-    """Packages that bring the libraries; a library we do not know stands for itself."""
-    return sorted({DEBIAN_PACKAGES.get(name.split(".so")[0], name) for name in libraries})
 
 
 def mend_libraries(libraries: Sequence[str]) -> None:

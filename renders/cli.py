@@ -12,6 +12,7 @@ import tyro
 from artgen.core.errors import UsageError
 from artgen.progress import progress
 from artgen.run_folder import RunFolder, locked, run_log
+from artgen.system_libraries import check_libraries
 from renders.contact_sheet import write_contact_sheet
 from renders.plan import Settings
 from renders.run import Rendered, RenderTask, is_staged, planned_tasks, run_tasks
@@ -44,6 +45,7 @@ def render(argv: Sequence[str]) -> int:
     """Render bundles in several views and states, with labels."""
     command = tyro.cli(Render, args=list(argv), prog="artgen render")
     settings = checked(command)
+    check_libraries()
     if not command.out.is_dir():
         raise UsageError(f"{command.out}: no such folder; name a run of `artgen generate`")
     folder = RunFolder(command.out)

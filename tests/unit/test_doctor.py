@@ -2,18 +2,27 @@
 
 from pathlib import Path
 
-from artgen import doctor
+import pytest
+
+from artgen import doctor, system_libraries
+from artgen.core.errors import UsageError
 
 
 def test_missing_libraries_become_packages() -> None:
     missing = ["libX11.so.6", "libXi.so.6", "libnovel.so.3"]
-    assert doctor.debian_packages(missing) == ["libnovel.so.3", "libx11-6", "libxi6"]
+    assert system_libraries.debian_packages(missing) == ["libnovel.so.3", "libx11-6", "libxi6"]
 
 
 def test_the_report_says_what_to_install(monkeypatch) -> None:
     monkeypatch.setattr(doctor, "missing_libraries", lambda: ["libXi.so.6"])
     findings = {finding.subject: finding for finding in doctor.examine(Path())}
     assert "apt-get install -y libxi6" in findings["system libraries"].remedy
+
+
+def test_work_that_needs_blender_does_not_begin_without_its_libraries(monkeypatch) -> None:
+    monkeypatch.setattr(system_libraries, "missing_libraries", lambda: ["libSM.so.6"])
+    with pytest.raises(UsageError, match="apt-get install -y libsm6"):
+        system_libraries.check_libraries()
 
 
 def test_a_ready_machine_has_no_remedies_and_exit_code_0(capsys) -> None:
