@@ -152,12 +152,13 @@ def buttons_suit_style(p: LaptopParams) -> bool:
 
 
 def lid_clears_block(p: LaptopParams) -> bool:
-    """The lid's lower outer edge passes over what the base has behind the hinge."""
+    """The outer edges of lid and ledge pass over what the base has behind the hinge."""
     at = Layout(p)
     if at.rear <= at.hinge_rear:
         return True
-    height = at.reach * math.sin(at.upper) + at.top * math.cos(at.upper)
-    return height >= PLAY - at.axis_above_deck
+    corners = ((at.reach, at.top), (at.ledge_reach, at.ledge_top - at.axis_z))
+    sin, cos = math.sin(at.upper), math.cos(at.upper)
+    return min(y * sin + z * cos for y, z in corners) >= PLAY - at.axis_above_deck
 
 
 def lid_clears_table(p: LaptopParams) -> bool:

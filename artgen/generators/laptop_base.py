@@ -196,7 +196,7 @@ def _ducts(
         x0, x1 = middle - length / 2.0, middle + length / 2.0
         cuts.append(slab((x0, rear - DUCT, low), (x1, rear + 0.004, high)))
         pieces = [slab((x0, rear - DUCT, low), (x1, rear - DUCT + back, high))]
-        count = max(4, round(length / 0.0042))
+        count = max(4, round(length / 0.0054))
         for k in range(1, count):
             x = x0 + length * k / count
             pieces.append(slab((x - 0.0005, rear - DUCT, low), (x + 0.0005, rear - 0.0004, high)))
@@ -239,10 +239,10 @@ def _speaker_slots(at: Layout) -> list[Solid]:
         w, h = rect.size
         upright = h > w
         long, short = (h, w) if upright else (w, h)
-        count = max(6, round(long / 0.0046))
+        count = max(6, round(long / 0.0066))
         for k in range(count):
             middle = (k + 0.5) * long / count
-            half = 0.0008 if upright else 0.0011
+            half = 0.0010 if upright else 0.0018
             if upright:
                 lower = rect.x0, rect.y0 + middle - half
                 upper = rect.x1, rect.y0 + middle + half

@@ -249,7 +249,21 @@ class Layout:
     @cached_property
     def hinge_rear(self) -> float:
         """y to which the base may reach behind the axis, whatever the lid does."""
-        return self.axis_y + min(self.radius, min(self.reach, self.top) - PLAY)
+        return self.axis_y + min(0.0015, self.ledge_top - self.axis_z - PLAY)
+
+    @cached_property
+    def ledge_top(self) -> float:
+        """z of the upper face of the ledge, below the rounding of the lid's edge."""
+        return self.lid_z[1] - self.crown
+
+    @cached_property
+    def ledge_reach(self) -> float:
+        """From the axis to the ledge, which closes the gap between lid and base beside the barrels.
+
+        Opened beyond a right angle, the ledge's outer edge stays behind the axis by this or by the
+        ledge's height over the axis, whichever is less.
+        """
+        return self.hinge_rear - self.axis_y + PLAY
 
     @cached_property
     def rear(self) -> float:

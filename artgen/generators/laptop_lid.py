@@ -8,7 +8,7 @@ from artgen.articulation.types import Body, Decal, DraftPart
 from artgen.core.mesh import Floats
 from artgen.generators.kit.density import ABS, ALUMINIUM, GLASS, RUBBER
 from artgen.generators.kit.lofted_shell import cover, plan
-from artgen.generators.laptop_layout import Layout
+from artgen.generators.laptop_layout import PLAY, Layout
 from artgen.geometry.profile import circle, regular_polygon, rounded_rectangle
 from artgen.geometry.solid import Solid, prism, slab, union
 
@@ -23,7 +23,7 @@ BREATH = 0.00015
 
 def lid(at: Layout) -> DraftPart:
     """As it lies closed: the picture looks down, its upper edge is at the front."""
-    bodies = [_cover(at), *_picture(at), *_seal(at), *_barrels(at), _webcam(at)]
+    bodies = [_cover(at), *_picture(at), *_seal(at), *_barrels(at), *_ledge(at), _webcam(at)]
     if at.p.logo != "none":
         bodies.append(_logo(at))
     return DraftPart(name="lid", label="lid", bodies=tuple(bodies))
@@ -120,6 +120,20 @@ def _barrels(at: Layout) -> list[Body]:
             )
         )
     return bodies
+
+
+def _ledge(at: Layout) -> list[Body]:
+    """Strips beside the barrels, from the cover to just before the axis."""
+    barrels, x = at.barrels, at.width / 2.0 - REAR_CORNER
+    stops = sorted((a - PLAY, b + PLAY) for a, b in (*barrels.base, *barrels.lid))
+    edges = [-x, *(edge for stop in stops for edge in stop), x]
+    spans = [(a, b) for a, b in zip(edges[::2], edges[1::2], strict=True) if b - a > 0.004]
+    rear = at.axis_y - at.ledge_reach
+    strips = [slab((a, at.lid_depth, at.lid_z[0]), (b, rear, at.ledge_top)) for a, b in spans]
+    return [
+        Body(solid=strip, surface="bezel", density=ABS, edge=0.0004, collision=(strip,))
+        for strip in strips
+    ]
 
 
 def _logo(at: Layout) -> Body:

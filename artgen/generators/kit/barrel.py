@@ -7,7 +7,7 @@ from artgen.geometry.solid import Solid, cylinder, slab, union
 
 Span = tuple[float, float]
 """From x to x, m."""
-SEGMENTS = 20
+SEGMENTS = 16
 PLAY = 0.0006
 """m; between neighboring knuckles along the axis."""
 
