@@ -2,8 +2,11 @@
 
 import logging
 import multiprocessing
+import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import as_completed
+from contextlib import contextmanager
+from multiprocessing import resource_tracker
 from typing import Any, Protocol, TypeVar
 
 from pebble import ProcessExpired, ProcessPool
@@ -54,9 +57,11 @@ def run_in_processes(
         try:
             waiting = {task: "" for task in tasks}
             for attempt in range(1, ATTEMPTS + 1):
-                futures = {
-                    pool.schedule(work, args=(task,), timeout=timeout_s): task for task in waiting
-                }
+                with _deaf_to_interrupts():
+                    futures = {
+                        pool.schedule(work, args=(task,), timeout=timeout_s): task
+                        for task in waiting
+                    }
                 waiting = {}
                 for future in as_completed(futures):
                     task = futures[future]
@@ -67,6 +72,25 @@ def run_in_processes(
                         waiting[task] = str(error)
         except BaseException:
             pool.stop()
+            pool.join()
+            for child in multiprocessing.active_children():  # One that was just being started.
+                child.kill()
+                child.join()
             raise
     for task, cause in waiting.items():
         yield lost(task, f"its process died {ATTEMPTS} times: {cause}")
+
+
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Threads begun here, and the processes they start, do not hear Ctrl-C: we stop them ourselves.
+
+    A signal mask is inherited, so even a process that is still importing prints no traceback. The
+    resource tracker of multiprocessing unblocks the signal when it starts, so it starts before.
+    """
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
