@@ -2,7 +2,9 @@
 
 import argparse
 import csv
+import json
 import platform
+import re
 import resource
 import shutil
 import tempfile
@@ -44,6 +46,12 @@ def cpu_seconds(process: psutil.Process) -> float:
     return sum(sum(p.cpu_times()[:2]) for p in (process, *process.children(recursive=True)))
 
 
+def peak_mb(pid: int) -> float:
+    """Largest resident size that a process had, from Linux' accounts."""
+    status = Path(f"/proc/{pid}/status").read_text()
+    return float(re.search(r"VmHWM:\s+(\d+) kB", status)[1]) / 1024.0
+
+
 def measured(task: AssetTask, tools: Toolbox) -> Row:
     """Make one asset in this process and weigh it; the Blender process is warm."""
     me = psutil.Process()
@@ -55,16 +63,16 @@ def measured(task: AssetTask, tools: Toolbox) -> Row:
     validate_bundle(home)
     validated = time.process_time() - started
     files = [path for path in home.rglob("*") if path.is_file()]
-    blender = max((c.memory_info().rss for c in me.children()), default=0)
+    stated = json.loads((home / "manifest.json").read_text())
     return Row(
         asset_id=task.asset_id,
         status=outcome.status,
         make_cpu_s=made - validated,
         validate_cpu_s=validated,
-        worker_mb=blender / 2**20,
+        worker_mb=max(peak_mb(child.pid) for child in me.children()),
         bundle_mb=sum(path.stat().st_size for path in files) / 1e6,
         files=len(files),
-        triangles=0,
+        triangles=sum(part["triangles"] for part in stated["parts"]),
     )
 
 
