@@ -53,7 +53,7 @@ def test_a_second_run_at_once_is_stopped_and_the_first_goes_on(tmp_path: Path) -
 
 def test_stages_of_one_run_may_lock_again(tmp_path: Path) -> None:
     with opened(tmp_path / "out", seed=0) as folder, locked(folder.root):
-        pass
+        assert (folder.root / ".lock").exists()
 
 
 def test_foreign_files_stop_the_run_and_stay(tmp_path: Path) -> None:
