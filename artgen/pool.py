@@ -3,8 +3,10 @@
 import logging
 import multiprocessing
 import signal
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import as_completed
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from multiprocessing import resource_tracker
 from typing import Any, Protocol, TypeVar
@@ -15,6 +17,8 @@ log = logging.getLogger(__name__)
 
 ATTEMPTS = 2
 """A task whose process died or hung is tried once more in a fresh one."""
+BREAKS = 5
+"""Rounds of fresh processes before those that keep dying are blamed on their tasks."""
 
 
 class Task(Protocol):
@@ -48,37 +52,53 @@ def run_in_processes(
         timeout_s: a process that works longer on one task is killed.
         lost: the outcome of a task whose process died in every attempt, told the cause.
     """
-    with ProcessPool(
-        max_workers=max(1, min(workers, len(tasks))),
-        initializer=initializer,
-        initargs=initargs,
-        context=multiprocessing.get_context("spawn"),
-    ) as pool:
-        try:
-            waiting = {task: "" for task in tasks}
-            for attempt in range(1, ATTEMPTS + 1):
-                with _deaf_to_interrupts():
-                    futures = {
-                        pool.schedule(work, args=(task,), timeout=timeout_s): task
-                        for task in waiting
-                    }
-                waiting = {}
-                for future in as_completed(futures):
-                    task = futures[future]
-                    try:
-                        yield future.result()
-                    except (ProcessExpired, TimeoutError) as error:
-                        log.warning("%s attempt %d: %s", task.asset_id, attempt, error)
-                        waiting[task] = str(error)
-        except BaseException:
-            pool.stop()
-            pool.join()
-            for child in multiprocessing.active_children():  # One that was just being started.
-                child.kill()
-                child.join()
-            raise
-    for task, cause in waiting.items():
-        yield lost(task, f"its process died {ATTEMPTS} times: {cause}")
+    faults: Counter[T] = Counter()
+    waiting, breaks = list(tasks), 0
+    while waiting:
+        pool = ProcessPool(
+            max_workers=max(1, min(workers, len(waiting))),
+            initializer=initializer,
+            initargs=initargs,
+            context=multiprocessing.get_context("spawn"),
+        )
+        again: list[T] = []
+        with _stopped_on_faults(pool):
+            with _deaf_to_interrupts():
+                futures = {
+                    pool.schedule(work, args=(task,), timeout=timeout_s): task for task in waiting
+                }
+            for future in as_completed(futures):
+                task = futures[future]
+                try:
+                    yield future.result()
+                    continue
+                except (ProcessExpired, TimeoutError) as error:
+                    faults[task] += 1
+                    cause = str(error)
+                except BrokenProcessPool as error:  # A process died before it said what it took.
+                    cause = str(error)
+                log.warning("%s: %s", task.asset_id, cause)
+                if faults[task] < ATTEMPTS and breaks < BREAKS:
+                    again.append(task)
+                else:
+                    yield lost(task, f"its process died {ATTEMPTS} times: {cause}")
+        waiting, breaks = again, breaks + 1
+
+
+@contextmanager
+def _stopped_on_faults(pool: ProcessPool) -> Iterator[None]:
+    """Close the pool at the end; on a fault kill its processes, one that just starts included."""
+    try:
+        yield
+        pool.close()
+        pool.join()
+    except BaseException:
+        pool.stop()
+        pool.join()
+        for child in multiprocessing.active_children():
+            child.kill()
+            child.join()
+        raise
 
 
 @contextmanager

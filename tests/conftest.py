@@ -1,10 +1,19 @@
-"""One Blender process for all tests of a session."""
+"""One Blender process for all tests of a session, and how hypothesis draws.
 
+`HYPOTHESIS_PROFILE=explore` draws anew at every run and ten times as much; CI draws the same.
+"""
+
+import os
 from collections.abc import Iterator
 
 import pytest
+from hypothesis import settings
 
 from artgen.worker import BlenderWorker
+
+settings.register_profile("ci", derandomize=True, deadline=None)
+settings.register_profile("explore", max_examples=1000, deadline=None)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 
 
 @pytest.fixture(scope="session")

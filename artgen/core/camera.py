@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 from artgen.core.mesh import Floats, frozen
 from artgen.core.transform import apply, inverted, look_at
 
+CLEARANCE = 0.05
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Camera:
@@ -86,6 +88,9 @@ def framed(
         direction: unit vector from the object to the eye; not vertical.
         fov: across the shorter side of the image, rad.
         fill: share of the image's half width and height that the points may use, in (0, 1].
+
+    The eye also stays `CLEARANCE` of the cloud's extent in front of the nearest point: a spike that
+    points at the camera would else reach it.
     """
     cloud = np.asarray(points, float)
     target = (cloud.min(axis=0) + cloud.max(axis=0)) / 2.0
@@ -96,7 +101,9 @@ def framed(
     slope = fill * np.array(size) / 2.0 / focal
     target = target + _centering(local, slope) @ turned
     local = (cloud - target) @ turned.T
-    distance = float((np.abs(local[:, :2]) / slope - local[:, 2:]).max())
+    within = float((np.abs(local[:, :2]) / slope - local[:, 2:]).max())
+    clear = float(CLEARANCE * np.ptp(cloud, axis=0).max() - local[:, 2].min())
+    distance = max(within, clear)
     eye = target + distance * toward
     return Camera(focal=focal, size=size, camera_from_world=inverted(look_at(eye, target)))
 

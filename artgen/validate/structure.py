@@ -153,7 +153,8 @@ AGREE = ("type", "parent", "child", "axis", "lower", "upper", "friction", "dampi
 
 
 def agreement(subject: Subject) -> Iterator[Finding]:
-    """URDF and manifest state the same joints, number for number."""
+    """URDF and manifest state the same joints, number for number, and as many contact pieces."""
+    yield from _piece_counts(subject)
     stated = {joint.name: joint for joint in urdf_joints(URDF, subject.urdf)}
     ours = {joint.name: joint for joint in manifest_joints(MANIFEST, subject.manifest)}
     for name in sorted(set(stated) ^ set(ours)):
@@ -176,6 +177,24 @@ def agreement(subject: Subject) -> Iterator[Finding]:
                     bound=f"{field} = {expected} as in {MANIFEST}",
                     message="one of the files was edited; export the asset anew",
                 )
+
+
+def _piece_counts(subject: Subject) -> Iterator[Finding]:
+    counts = {
+        link.get("name"): len(link.findall("collision")) for link in subject.urdf.iter("link")
+    }
+    for entry in subject.manifest["parts"]:
+        if not isinstance(entry, dict) or not isinstance(entry.get("collision"), list):
+            continue  # Reported where the manifest is read as typed values.
+        name, found = str(entry.get("name")), len(entry["collision"])
+        if found != counts.get(name, found):
+            yield Finding(
+                check="structure.agreement",
+                part=name,
+                value=float(found),
+                bound=f"{counts[name]} contact pieces as in {URDF}",
+                message="one of the files was edited; export the asset anew",
+            )
 
 
 def typed(subject: Subject) -> Iterator[Finding]:

@@ -6,7 +6,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from artgen.pool import run_in_processes
+from artgen.pool import ATTEMPTS, run_in_processes
 
 
 @dataclass(frozen=True)
@@ -43,5 +43,5 @@ def test_every_task_has_one_outcome_whatever_its_neighbours_do(tmp_path: Path) -
         lost=lambda task, cause: f"{task.asset_id} lost",
     )
     assert sorted(outcomes) == ["0 1", "1 lost", "2 1", "3 1", "4 lost", "5 1"]
-    assert (tmp_path / "1").read_text() == "xx"
-    assert (tmp_path / "0").read_text() == "x"
+    assert len((tmp_path / "1").read_text()) >= ATTEMPTS
+    assert len((tmp_path / "4").read_text()) == ATTEMPTS

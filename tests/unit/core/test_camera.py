@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from artgen.core.camera import Camera, framed, orbit_direction
+from artgen.core.camera import CLEARANCE, Camera, framed, orbit_direction
 
 CLOUDS = st.lists(
     st.tuples(*[st.floats(-2.0, 2.0)] * 3), min_size=4, max_size=30, unique=True
@@ -27,9 +27,12 @@ def test_a_framed_cloud_lies_within_its_share_of_the_image_and_reaches_it(
     far below what a wrong formula does."""
     camera = framed(points, direction=orbit_direction(*angles), fov=fov, size=size, fill=fill)
     pixels = camera.project(points)
-    assert (pixels[:, 2] > 0).all()
+    nearest = CLEARANCE * np.ptp(np.array(points), axis=0).max()
+    assert pixels[:, 2].min() >= nearest - 1e-9
     reach = np.abs(pixels[:, :2] - np.array(size) / 2) / (np.array(size) / 2)
-    assert reach.max() == pytest.approx(fill, abs=1e-6)
+    assert reach.max() <= fill + 1e-6
+    if pixels[:, 2].min() > nearest + 1e-9:
+        assert reach.max() == pytest.approx(fill, abs=1e-6)
 
 
 def test_axes_are_opencv() -> None:
