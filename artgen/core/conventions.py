@@ -7,8 +7,6 @@ stands on z = 0 and is centred in x and y. Seen from the front, left is -x. Came
 
 import numpy as np
 
-FRONT = (0.0, -1.0, 0.0)
-UP = (0.0, 0.0, 1.0)
 GRAVITY = 9.81
 """m/s2, along -z."""
 

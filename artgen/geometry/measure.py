@@ -95,11 +95,6 @@ def _without_twins(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
     return vertices[used], compact.reshape(faces.shape)
 
 
-def bounding_sphere(mesh_points: Floats, center: Floats) -> float:
-    """Radius of the smallest sphere about `center` that holds (N, 3) points, m."""
-    return float(np.linalg.norm(mesh_points - center, axis=1).max())
-
-
 def total_volume(mesh: TriMesh) -> float:
     """Signed volume, m3; positive when outward."""
     a, b, c = mesh.triangles.transpose(1, 0, 2)

@@ -4,9 +4,6 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import mujoco
-import numpy as np
-
-from artgen.core.mesh import Floats
 
 TOLERANCE = 1e-12
 """The default of 1e-8 leaves 1.4 rad on a light handle of a free heavy base, and saves no time."""
@@ -55,11 +52,3 @@ def set_state(model: mujoco.MjModel, data: mujoco.MjData, q: Mapping[str, float]
     for name, value in q.items():
         data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
     mujoco.mj_kinematics(model, data)
-
-
-def object_from_body(data: mujoco.MjData, body: int) -> Floats:
-    """(4, 4) pose of a body's frame."""
-    pose = np.eye(4)
-    pose[:3, :3] = data.xmat[body].reshape(3, 3)
-    pose[:3, 3] = data.xpos[body]
-    return pose

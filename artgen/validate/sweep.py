@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from artgen.articulation.kinematics import forward_kinematics, joint_motion, resolved
+from artgen.articulation.states import required_state
 from artgen.articulation.types import Joint, Precondition, State
 from artgen.core.mesh import Floats
 from artgen.geometry.clearance import Mover, Overlap, Shape, overlaps
@@ -62,20 +63,12 @@ def sweeps(joints: Sequence[Joint], preconditions: Sequence[Precondition]) -> It
     for joint in joints:
         if joint.mimic is not None:
             continue
-        held = {rule.requires: rule.at_least for rule in _required(joint.name, preconditions)}
+        held = required_state(joint.name, preconditions)
         open_ = {name: _range(by_name[name])[1] for name in held}
         lower, upper = _range(joint)
         path = np.linspace(lower, upper, POSES).tolist()
         for others in (held, open_) if open_ != held else (held,):
             yield Sweep(joint=joint.name, states=tuple({**others, joint.name: q} for q in path))
-
-
-def _required(name: str, preconditions: Sequence[Precondition]) -> Iterator[Precondition]:
-    """The preconditions of a joint, and those of the joints it requires."""
-    for rule in preconditions:
-        if rule.joint == name:
-            yield from _required(rule.requires, preconditions)
-            yield rule
 
 
 def _range(joint: Joint) -> tuple[float, float]:
