@@ -1,10 +1,13 @@
-"""RenderJob: what Blender is asked to render, as plain data."""
+"""RenderJob: what Blender is asked to render, as plain data.
+
+Standard library alone: Blender's own Python on a render farm need not have anything else.
+"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
 
-from artgen.core.camera import Camera
+from artgen.core.stated_camera import StatedCamera
 
 Color = tuple[float, float, float]
 Point = tuple[float, float, float]
@@ -37,12 +40,51 @@ class Sky:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Environment:
+    """A surrounding as an image of radiance, in place of the sky.
+
+    Column j of row i in an image of H rows and 2 H columns shows the direction with azimuth
+    2 pi (j + 0.5) / (2 H) - pi, from the front (-y) towards +x, and elevation
+    pi / 2 - pi (i + 0.5) / H above the horizon.
+
+    Attributes:
+        file: absolute path of an EXR, linear RGB.
+        strength: factor on every pixel.
+    """
+
+    file: str
+    strength: float = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ground:
+    """A floor that shows nothing but the shadow it catches.
+
+    Attributes:
+        height: m, world z.
+        center: (x, y) m.
+        radius: m.
+    """
+
+    height: float
+    center: tuple[float, float]
+    radius: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class LightRig:
-    """Everything that shines; `name` is the rig's identifier."""
+    """Everything that shines, and the floor it falls on.
+
+    Attributes:
+        name: the rig's identifier.
+        environment: replaces `sky` where given; `sky` is then its mean by height.
+    """
 
     name: str
     lights: tuple[AreaLight, ...]
     sky: Sky
+    environment: Environment | None = None
+    ground: Ground | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,7 +152,7 @@ class RenderJob:
 
     glb: str
     folder: str
-    cameras: tuple[Camera, ...]
+    cameras: tuple[StatedCamera, ...]
     states: tuple[Mapping[str, Any], ...]
     rig: LightRig
     transport: Transport
@@ -124,12 +166,14 @@ class RenderJob:
         """The job that `plain` turned into JSON."""
         rig, transport = job["rig"], job["transport"]
         typed = {
-            "cameras": tuple(Camera.from_plain(camera) for camera in job["cameras"]),
+            "cameras": tuple(_camera(camera) for camera in job["cameras"]),
             "states": tuple(job["states"]),
             "rig": LightRig(
                 name=rig["name"],
                 lights=tuple(AreaLight(**light) for light in rig["lights"]),
                 sky=Sky(**rig["sky"]),
+                environment=rig["environment"] and Environment(**rig["environment"]),
+                ground=rig["ground"] and Ground(**rig["ground"]),
             ),
             "transport": Transport(
                 **{**transport, "panes": tuple(ThinGlass(**pane) for pane in transport["panes"])}
@@ -137,3 +181,13 @@ class RenderJob:
             "shots": tuple(Shot(**shot) for shot in job["shots"]),
         }
         return cls(**{**job, **typed})
+
+
+def _camera(stated: Mapping[str, Any]) -> StatedCamera:
+    a, b, c, d = (tuple(row) for row in stated["camera_from_world"])
+    return StatedCamera(
+        focal=stated["focal"],
+        principal=tuple(stated["principal"]),
+        size=tuple(stated["size"]),
+        camera_from_world=(a, b, c, d),
+    )

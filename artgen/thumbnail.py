@@ -50,13 +50,14 @@ def thumbnail_job(obj: ArticulatedObject, *, glb: Path, folder: Path) -> RenderJ
         [apply(poses[part.name], part.mesh.vertices) for part in obj.parts]
     )
     low, high = points.min(axis=0), points.max(axis=0)
+    view = framed(points, direction=DIRECTION, fov=FOV, size=(SIZE, SIZE), fill=FILL)
     shot = Shot(
         file="view.exr", camera=0, state=0, part=None, box=(0, 0, SIZE, SIZE), samples=SAMPLES
     )
     return RenderJob(
         glb=str(glb.resolve()),
         folder=str(folder),
-        cameras=(framed(points, direction=DIRECTION, fov=FOV, size=(SIZE, SIZE), fill=FILL),),
+        cameras=(view.stated,),
         states=(poses,),
         rig=portrait_rig(center=(low + high) / 2.0, radius=float(np.linalg.norm(high - low) / 2.0)),
         transport=needed_transport(obj.surfaces),

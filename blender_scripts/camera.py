@@ -1,28 +1,46 @@
 """Our cameras and crop windows in Blender's terms."""
 
+from collections.abc import Sequence
+
 import bpy
 from mathutils import Matrix
 
-from artgen.core.camera import Camera
-from artgen.core.transform import BLENDER_CAMERA_FROM_CAMERA, inverted
+from artgen.core.stated_camera import Row, StatedCamera
 
 SENSOR = 36.0
 """mm; any value does, as the focal length follows from it."""
 
 
-def add_camera(name: str, camera: Camera) -> bpy.types.Object:
+def add_camera(name: str, camera: StatedCamera) -> bpy.types.Object:
     """A Blender camera that sees what ours sees."""
     data = bpy.data.cameras.new(name)
     data.sensor_fit = "HORIZONTAL"
     data.sensor_width = SENSOR
-    data.lens = SENSOR * camera.focal / camera.size[0]
+    width, height = camera.size
+    data.lens = SENSOR * camera.focal / width
+    # Blender shifts the film, in widths of the image, so the principal point moves against it.
+    data.shift_x = 0.5 - camera.principal[0] / width
+    data.shift_y = (camera.principal[1] - height / 2.0) / width
     data.clip_start, data.clip_end = 1e-3, 1e4
     node = bpy.data.objects.new(name, data)
-    # The diagonal matrix is its own inverse.
-    pose = inverted(camera.camera_from_world) @ BLENDER_CAMERA_FROM_CAMERA
-    node.matrix_world = Matrix(pose.tolist())
+    node.matrix_world = Matrix(world_from_blender_camera(camera.camera_from_world))
     bpy.context.scene.collection.objects.link(node)
     return node
+
+
+def world_from_blender_camera(camera_from_world: Sequence[Row]) -> list[list[float]]:
+    """(4, 4) pose of a camera with Blender's axes: x right, y up, z backward.
+
+    The inverse of a rigid matrix by transposition, then y and z turned around; in float64, as
+    Blender's own matrices round to float32.
+    """
+    shift = [row[3] for row in camera_from_world[:3]]
+    rows = []
+    for k in range(3):
+        right, down, forward = (row[k] for row in camera_from_world[:3])
+        eye = -(right * shift[0] + down * shift[1] + forward * shift[2])
+        rows.append([right, -down, -forward, eye])
+    return [*rows, [0.0, 0.0, 0.0, 1.0]]
 
 
 def set_window(scene: bpy.types.Scene, size: tuple[int, int], box: tuple[int, ...]) -> None:

@@ -12,7 +12,8 @@ from artgen.dataset.packing import stage
 from artgen.export import Bundle
 from artgen.worker import BlenderWorker
 from renders.collect import collected
-from renders.plan import Settings, plan_render
+from renders.plan import plan_render
+from renders.settings import Settings
 
 TIMEOUT_S = 900.0
 """A sample takes 10 to 30 CPU s at 128 px; large images on a busy machine take more."""

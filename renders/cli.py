@@ -13,9 +13,10 @@ from artgen.core.errors import UsageError
 from artgen.progress import progress
 from artgen.run_folder import RunFolder, locked, run_log
 from artgen.system_libraries import check_libraries
+from renders.accuracy import quality
 from renders.contact_sheet import write_contact_sheet
-from renders.plan import Settings
 from renders.run import Rendered, RenderTask, is_staged, planned_tasks, run_tasks
+from renders.settings import Settings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,8 +34,8 @@ class Render:
     """Joint states per asset; the first of several is closed."""
     size: int = 128
     """Image width and height, px."""
-    samples: int = 32
-    """Paths a pixel of a composite image; parts alone get half."""
+    accuracy: str = "standard"
+    """A preset (draft, standard, high, reference) or paths a pixel such as 16spp."""
     seed: int = 0
     """Root of all randomness."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
@@ -66,12 +67,13 @@ def checked(command: Render) -> Settings:
     Raises:
         UsageError: a number is out of bounds.
     """
-    least = {"views": 1, "states": 1, "size": 16, "samples": 1, "workers": 1}
+    least = {"views": 1, "states": 1, "size": 16, "workers": 1}
     for name, bound in least.items():
         if (value := getattr(command, name)) < bound:
             raise UsageError(f"--{name} {value} is too small; ask for at least {bound}")
+    quality(command.accuracy)
     return Settings(
-        views=command.views, states=command.states, size=command.size, samples=command.samples
+        views=command.views, states=command.states, size=command.size, accuracy=command.accuracy
     )
 
 

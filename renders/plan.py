@@ -16,26 +16,11 @@ from artgen.export import Bundle
 from artgen.export.layout import GLB
 from artgen.render_job import RenderJob
 from artgen.transport import needed_transport
+from renders.accuracy import quality
 from renders.cameras import orbit_cameras
 from renders.lights import studio_rig
 from renders.passes import Passes, planned_passes
-
-
-@dataclass(frozen=True, kw_only=True)
-class Settings:
-    """How many images, how large, how clean.
-
-    Attributes:
-        views: cameras.
-        states: joint states.
-        size: width and height, px.
-        samples: paths a pixel of a composite image; parts alone get half.
-    """
-
-    views: int = 4
-    states: int = 2
-    size: int = 128
-    samples: int = 32
+from renders.settings import Settings
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -79,13 +64,14 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         views=settings.views,
         size=(settings.size, settings.size),
     )
+    paths = quality(settings.accuracy)
     passes = planned_passes(
         names,
         [mesh.vertices for mesh in meshes],
         poses,
         cameras,
-        samples=settings.samples,
-        part_samples=max(1, settings.samples // 2),
+        samples=paths.samples,
+        part_samples=paths.part_samples,
     )
     low, high = points.min(axis=0), points.max(axis=0)
     rig = studio_rig(
@@ -96,11 +82,12 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
     job = RenderJob(
         glb=str(bundle.folder.resolve() / GLB),
         folder=str(folder.resolve()),
-        cameras=cameras,
+        cameras=tuple(camera.stated for camera in cameras),
         states=poses,
         rig=rig,
         transport=needed_transport(bundle.surfaces),
         shots=passes.shots,
+        denoise=paths.denoise,
         seed=int(stream.child("cycles").generator().integers(2**31)),
     )
     return RenderPlan(

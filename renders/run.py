@@ -17,7 +17,7 @@ from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
 from artgen.worker import BlenderWorker
 from renders.asset import render_asset
-from renders.plan import Settings
+from renders.settings import Settings
 
 ASSET_TIMEOUT_S = 3600.0
 """Beyond every limit of the Blender worker itself; a process that hangs for this long is killed."""

@@ -1,14 +1,14 @@
 """Camera: a pinhole with OpenCV axes; and the nearest place from which it sees given points."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from artgen.core.mesh import Floats, frozen
+from artgen.core.stated_camera import StatedCamera
 from artgen.core.transform import apply, inverted, look_at
 
 CLEARANCE = 0.05
@@ -16,33 +16,43 @@ CLEARANCE = 0.05
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Camera:
-    """A pinhole whose principal point is the middle of the image.
+    """A pinhole.
 
     Attributes:
         focal: px, the same along x and y.
         size: (width, height) px; the centre of the first pixel is at (0.5, 0.5).
         camera_from_world: (4, 4) rigid; x right, y down, z forward, m.
+        principal: (x, y) px of the principal point; the middle of the image unless stated.
     """
 
     focal: float
     size: tuple[int, int]
     camera_from_world: Floats
+    principal: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         matrix = frozen(np.asarray(self.camera_from_world).reshape(4, 4), np.float64)
         object.__setattr__(self, "camera_from_world", matrix)
         object.__setattr__(self, "size", (int(self.size[0]), int(self.size[1])))
 
-    @classmethod
-    def from_plain(cls, stated: Mapping[str, Any]) -> Self:
-        """The camera that `plain` turned into JSON."""
-        return cls(**{**stated, "camera_from_world": np.array(stated["camera_from_world"])})
+    @property
+    def center(self) -> tuple[float, float]:
+        """(x, y) px where the optical axis meets the image."""
+        return self.principal or (self.size[0] / 2.0, self.size[1] / 2.0)
+
+    @property
+    def stated(self) -> StatedCamera:
+        """The same camera as plain numbers, for a render job."""
+        a, b, c, d = (tuple(row) for row in self.camera_from_world.tolist())
+        return StatedCamera(
+            focal=self.focal, principal=self.center, size=self.size, camera_from_world=(a, b, c, d)
+        )
 
     @property
     def intrinsics(self) -> Floats:
         """(3, 3) px."""
-        width, height = self.size
-        return np.array([[self.focal, 0, width / 2], [0, self.focal, height / 2], [0, 0, 1.0]])
+        x, y = self.center
+        return np.array([[self.focal, 0, x], [0, self.focal, y], [0, 0, 1.0]])
 
     @property
     def position(self) -> Floats:
@@ -53,15 +63,14 @@ class Camera:
         """(..., 3) px x, px y and depth (m, along z) of world points."""
         local = apply(self.camera_from_world, points)
         depth = local[..., 2:]
-        middle = np.array(self.size) / 2.0
-        return np.concatenate([self.focal * local[..., :2] / depth + middle, depth], axis=-1)
+        return np.concatenate([self.focal * local[..., :2] / depth + self.center, depth], axis=-1)
 
     def rays(self) -> tuple[Floats, Floats]:
         """Origin (3,) and directions (H, W, 3) through the pixel centres, world; a direction is as
         long as one metre of depth, so that points are origin + depth * direction."""
         width, height = self.size
-        x = (np.arange(width) + 0.5 - width / 2.0) / self.focal
-        y = (np.arange(height) + 0.5 - height / 2.0) / self.focal
+        x = (np.arange(width) + 0.5 - self.center[0]) / self.focal
+        y = (np.arange(height) + 0.5 - self.center[1]) / self.focal
         local = np.stack([*np.meshgrid(x, y), np.ones((height, width))], axis=-1)
         return self.position, local @ self.camera_from_world[:3, :3]
 

@@ -7,10 +7,6 @@ from numpy.typing import ArrayLike
 
 from artgen.core.mesh import Floats
 
-BLENDER_CAMERA_FROM_CAMERA = np.diag([1.0, -1.0, -1.0, 1.0])
-"""OpenCV camera axes (x right, y down, z forward) to Blender's (x right, y up, z backward)."""
-BLENDER_CAMERA_FROM_CAMERA.setflags(write=False)
-
 
 def rigid(rotation: ArrayLike, translation: ArrayLike) -> Floats:
     """(4, 4) from a (3, 3) rotation and a (3,) translation."""

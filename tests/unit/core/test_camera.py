@@ -82,10 +82,8 @@ def test_intrinsics_state_the_same_projection() -> None:
     np.testing.assert_allclose(homogeneous[:2] / homogeneous[2], (x, y), rtol=0, atol=1e-11)
 
 
-def test_a_camera_survives_json() -> None:
-    camera = Camera(focal=80.0, size=(64, 48), camera_from_world=np.eye(4))
-    again = Camera.from_plain(
-        {"focal": 80.0, "size": [64, 48], "camera_from_world": np.eye(4).tolist()}
-    )
-    assert (again.focal, again.size) == (camera.focal, camera.size)
-    assert np.array_equal(again.camera_from_world, camera.camera_from_world)
+def test_a_stated_camera_has_the_same_numbers() -> None:
+    camera = Camera(focal=80.0, size=(64, 48), camera_from_world=np.eye(4), principal=(30.0, 25.5))
+    stated = camera.stated
+    assert (stated.focal, stated.size, stated.principal) == (80.0, (64, 48), (30.0, 25.5))
+    assert np.array_equal(stated.camera_from_world, camera.camera_from_world)

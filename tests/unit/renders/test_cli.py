@@ -10,7 +10,7 @@ from artgen.core.errors import UsageError
 from artgen.export import Bundle
 from renders.cli import render
 
-SMALL = ["--views", "1", "--states", "1", "--size", "24", "--samples", "2"]
+SMALL = ["--views", "1", "--states", "1", "--size", "24", "--accuracy", "2spp"]
 
 
 def run_folder(bundle: Bundle, root: Path) -> Path:

@@ -15,10 +15,11 @@ from artgen.worker import BlenderWorker
 from renders.asset import render_asset
 from renders.collect import collected
 from renders.contact_sheet import write_contact_sheet
-from renders.plan import Settings, plan_render
+from renders.plan import plan_render
 from renders.run import is_staged, planned_tasks
+from renders.settings import Settings
 
-SETTINGS = Settings(views=2, states=2, size=32, samples=2)
+SETTINGS = Settings(views=2, states=2, size=32, accuracy="2spp")
 
 
 @pytest.fixture(scope="module")

@@ -62,7 +62,7 @@ def test_a_wall_that_faces_a_softbox_is_as_bright_as_stated(
     job = RenderJob(
         glb=str(bundle.folder / "asset.glb"),
         folder=str(tmp_path),
-        cameras=(camera,),
+        cameras=(camera.stated,),
         states=({part.name: np.eye(4) for part in bundle.parts},),
         rig=LightRig(name="one", lights=(light,), sky=DARK),
         transport=DIRECT,

@@ -16,12 +16,13 @@ from artgen.imaging import display, read_exr
 from artgen.render_job import RenderJob, Shot
 from artgen.worker import BlenderWorker
 from renders.collect import cast
-from renders.plan import RenderPlan, Settings, plan_render
+from renders.plan import RenderPlan, plan_render
 from renders.raycast import BACKGROUND
+from renders.settings import Settings
 
 pytestmark = pytest.mark.blender
 
-SMALL = Settings(views=2, states=2, size=64, samples=8)
+SMALL = Settings(views=2, states=2, size=64, accuracy="8spp")
 WHOLE = (0, 0, 64, 64)
 
 

@@ -12,7 +12,8 @@ from artgen.export import Bundle
 from artgen.imaging import Singles, display, read_exr
 from artgen.render_job import RenderJob, Shot, Transport
 from artgen.worker import BlenderWorker
-from renders.plan import Settings, plan_render
+from renders.plan import plan_render
+from renders.settings import Settings
 
 pytestmark = pytest.mark.blender
 
@@ -24,7 +25,7 @@ EVERYTHING = Transport(
 @pytest.fixture(scope="module")
 def job(bundle: Bundle, tmp_path_factory: pytest.TempPathFactory) -> RenderJob:
     folder = tmp_path_factory.mktemp("transport")
-    settings = Settings(views=1, states=2, size=48, samples=1)
+    settings = Settings(views=1, states=2, size=48, accuracy="1spp")
     plan = plan_render(bundle, Stream(2), settings=settings, folder=folder)
     return dataclasses.replace(plan.job, denoise=False)
 
