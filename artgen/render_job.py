@@ -5,12 +5,14 @@ Standard library alone: Blender's own Python on a render farm need not have anyt
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 from artgen.core.stated_camera import StatedCamera
 
 Color = tuple[float, float, float]
 Point = tuple[float, float, float]
+Prefilter = Literal["none", "fast", "accurate"]
+DenoiseQuality = Literal["high", "balanced", "fast"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,6 +150,10 @@ class RenderJob:
         shots: rendered in this order; no image depends on it.
         seed: of the path tracer.
         denoise: pass every image through OpenImageDenoise.
+        prefilter: how the denoiser cleans the albedo and normals that guide it.
+        denoise_quality: of the denoiser's network.
+        adaptive: noise below which a pixel gets no more paths; 0 gives every pixel all of them.
+        bounces: cap on the bounces of every kind that `transport` states; None caps nothing.
     """
 
     glb: str
@@ -159,6 +165,10 @@ class RenderJob:
     shots: tuple[Shot, ...]
     seed: int
     denoise: bool = True
+    prefilter: Prefilter = "fast"
+    denoise_quality: DenoiseQuality = "high"
+    adaptive: float = 0.0
+    bounces: int | None = None
     kind: str = field(default="render")
 
     @classmethod

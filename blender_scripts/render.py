@@ -1,5 +1,6 @@
 """The render job: import a GLB, pose its parts, render each shot with Cycles."""
 
+import math
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -66,23 +67,24 @@ def _configure(scene: bpy.types.Scene, task: RenderJob, threads: int) -> None:
     render.use_file_extension = False
     cycles.device = "CPU"
     cycles.seed = task.seed
-    cycles.use_adaptive_sampling = False
+    cycles.use_adaptive_sampling = task.adaptive > 0.0
+    cycles.adaptive_threshold = task.adaptive
     cycles.film_transparent_glass = True
     cycles.use_denoising = task.denoise
     cycles.denoiser = "OPENIMAGEDENOISE"
-    cycles.denoising_quality = "HIGH"
-    cycles.denoising_prefilter = "FAST"
-    _limit(cycles, task.transport)
+    cycles.denoising_quality = task.denoise_quality.upper()
+    cycles.denoising_prefilter = task.prefilter.upper()
+    _limit(cycles, task.transport, math.inf if task.bounces is None else task.bounces)
 
 
-def _limit(cycles: Any, transport: Transport) -> None:
-    """Bounces by kind of light transport."""
-    cycles.diffuse_bounces = transport.diffuse
-    cycles.glossy_bounces = transport.glossy
-    cycles.transmission_bounces = transport.transmission
+def _limit(cycles: Any, transport: Transport, most: float) -> None:
+    """Bounces by kind of light transport, none more than `most`."""
+    cycles.diffuse_bounces = min(transport.diffuse, most)
+    cycles.glossy_bounces = min(transport.glossy, most)
+    cycles.transmission_bounces = min(transport.transmission, most)
     cycles.transparent_max_bounces = transport.transparent
     cycles.volume_bounces = 0
-    cycles.max_bounces = max(transport.diffuse, transport.glossy, transport.transmission)
+    cycles.max_bounces = min(max(transport.diffuse, transport.glossy, transport.transmission), most)
     cycles.caustics_reflective = False
     cycles.caustics_refractive = transport.transmission > 0
     cycles.sample_clamp_indirect = transport.clamp_indirect

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from artgen.core.errors import UsageError
+from artgen.render_job import DenoiseQuality, Prefilter
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -14,12 +15,16 @@ class Quality:
     Attributes:
         samples: paths a pixel of a composite image.
         part_samples: paths a pixel of a part alone.
-        denoise: pass every image through OpenImageDenoise.
+        denoise, prefilter, denoise_quality, adaptive, bounces: as in `RenderJob`.
     """
 
     samples: int
     part_samples: int
     denoise: bool = True
+    prefilter: Prefilter = "fast"
+    denoise_quality: DenoiseQuality = "high"
+    adaptive: float = 0.0
+    bounces: int | None = None
 
 
 PRESETS: Mapping[str, Quality] = {

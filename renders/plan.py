@@ -88,6 +88,10 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         transport=needed_transport(bundle.surfaces),
         shots=passes.shots,
         denoise=paths.denoise,
+        prefilter=paths.prefilter,
+        denoise_quality=paths.denoise_quality,
+        adaptive=paths.adaptive,
+        bounces=paths.bounces,
         seed=int(stream.child("cycles").generator().integers(2**31)),
     )
     return RenderPlan(
