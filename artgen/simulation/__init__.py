@@ -1,0 +1,1 @@
+"""Simulating only the effects that a scene calls for, and what accuracy costs in time."""
