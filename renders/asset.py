@@ -6,17 +6,13 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 
-from artgen.core.jsonio import plain
 from artgen.core.stream import Stream
 from artgen.dataset.packing import stage
 from artgen.export import Bundle
-from artgen.worker import BlenderWorker
+from renders.backends import Backend
 from renders.collect import collected
 from renders.plan import plan_render
 from renders.settings import Settings
-
-TIMEOUT_S = 900.0
-"""A sample takes 10 to 30 CPU s at 128 px; large images on a busy machine take more."""
 
 
 def render_asset(
@@ -26,7 +22,7 @@ def render_asset(
     settings: Settings,
     seed: int,
     scratch: Path,
-    worker: BlenderWorker,
+    backend: Backend,
 ) -> Mapping[str, float]:
     """Render, label and stage one asset's sample; seconds by stage.
 
@@ -46,9 +42,9 @@ def render_asset(
             folder=folder,
         )
         planned = time.perf_counter()
-        worker.run(plain(plan.job), timeout_s=TIMEOUT_S)
+        images = backend.images(plan, folder)
         rendered = time.perf_counter()
-        sample = collected(plan, folder)
+        sample = collected(plan, images, shading=backend.shading)
         sample_path.parent.mkdir(parents=True, exist_ok=True)
         stage(sample_path, sample)
     finally:

@@ -1,28 +1,30 @@
-"""Rendered files and cast labels to a Sample."""
+"""Rendered images and cast labels to a Sample."""
 
-from pathlib import Path
+from collections.abc import Sequence
 
 import numpy as np
 
 from artgen.articulation.kinematics import resolved
 from artgen.articulation.targets import targets
 from artgen.core.camera import Camera
-from artgen.core.errors import RenderError
 from artgen.dataset.sample import Cameras, PartLabel, Sample, SampleMeta
 from artgen.export import Bundle
-from artgen.imaging import Bytes, display, read_exr
-from artgen.render_job import Shot
+from artgen.imaging import Singles, display
 from renders.plan import RenderPlan
 from renders.raycast import Labels, PartCaster, cast_labels
 
 
-def collected(plan: RenderPlan, folder: Path) -> Sample:
-    """The sample of a plan whose shots lie in `folder`.
+def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> Sample:
+    """The sample of a plan.
+
+    Args:
+        linear: for each shot (h, w, 4) float32 of its window, linear RGB premultiplied by alpha.
+        shading: the shading model that made them.
 
     Raises:
         RenderError: an image is missing, of another size, or not finite.
     """
-    images = [_image(folder, shot) for shot in plan.passes.shots]
+    images = [display(image) for image in linear]
     labels = cast(plan)
     counts = (len(plan.states), len(plan.cameras))
     shape = (*counts, len(plan.meshes), *plan.cameras[0].size[::-1])
@@ -35,7 +37,7 @@ def collected(plan: RenderPlan, folder: Path) -> Sample:
     bundle = plan.bundle
     names = [part.name for part in bundle.parts]
     return Sample(
-        meta=_meta(bundle, plan),
+        meta=_meta(bundle, plan, shading),
         cameras=_cameras(plan),
         targets=targets(
             names,
@@ -71,18 +73,6 @@ def cast(plan: RenderPlan) -> list[list[Labels]]:
     ]
 
 
-def _image(folder: Path, shot: Shot) -> Bytes:
-    """(h, w, 4) uint8 of the shot's window."""
-    image = display(read_exr(folder / shot.file))
-    left, top, right, bottom = shot.box
-    if image.shape[:2] != (bottom - top, right - left):
-        raise RenderError(
-            f"{folder / shot.file} is {image.shape[1]} x {image.shape[0]} px, its window "
-            f"{right - left} x {bottom - top}; Blender rounded the window's border"
-        )
-    return image
-
-
 def _cameras(plan: RenderPlan) -> Cameras:
     """The same cameras in every state."""
     views: list[Camera] = list(plan.cameras)
@@ -102,7 +92,7 @@ def _joint_values(plan: RenderPlan) -> np.ndarray[tuple[int, ...], np.dtype[np.f
     return np.array(values, np.float64).reshape(len(rows), len(joints))
 
 
-def _meta(bundle: Bundle, plan: RenderPlan) -> SampleMeta:
+def _meta(bundle: Bundle, plan: RenderPlan, shading: str) -> SampleMeta:
     versions = {name: str(value) for name, value in bundle.manifest["versions"].items()}
     return SampleMeta(
         asset_id=bundle.asset_id,
@@ -113,6 +103,6 @@ def _meta(bundle: Bundle, plan: RenderPlan) -> SampleMeta:
         joints=bundle.joints,
         preconditions=bundle.preconditions,
         versions=versions,
-        shading="cycles",
+        shading=shading,
         light=plan.job.rig.name,
     )

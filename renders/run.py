@@ -17,6 +17,7 @@ from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
 from artgen.worker import BlenderWorker
 from renders.asset import render_asset
+from renders.backends import Backend, CyclesBackend
 from renders.settings import Settings
 
 ASSET_TIMEOUT_S = 3600.0
@@ -118,21 +119,21 @@ def _remember(path: Path, settings: Settings, seed: int) -> None:
         )
 
 
-_worker: tuple[BlenderWorker, Path] | None = None
+_worker: tuple[Backend, Path] | None = None
 """Of this process, with its scratch folder; set once by the pool's initializer."""
 
 
 def _open_worker(folder: RunFolder, threads: int) -> None:
     global _worker
     log_file = folder.logs / f"blender-render-{os.getpid()}.log"
-    _worker = BlenderWorker(log_file, threads=threads), scratch(folder)
+    _worker = CyclesBackend(BlenderWorker(log_file, threads=threads)), scratch(folder)
 
 
 def _task_in_worker(task: RenderTask) -> Rendered:
     """Faults of one asset become its outcome; the process goes on."""
     if _worker is None:
         raise RuntimeError("the pool did not open its worker")
-    worker, images = _worker
+    backend, images = _worker
     try:
         seconds = render_asset(
             read_bundle(task.bundle),
@@ -140,7 +141,7 @@ def _task_in_worker(task: RenderTask) -> Rendered:
             settings=task.settings,
             seed=task.seed,
             scratch=images,
-            worker=worker,
+            backend=backend,
         )
     except ArtgenError as error:
         return Rendered(asset_id=task.asset_id, message=str(error))

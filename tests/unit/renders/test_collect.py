@@ -13,6 +13,7 @@ from artgen.export import Bundle
 from artgen.run_folder import RunFolder
 from artgen.worker import BlenderWorker
 from renders.asset import render_asset
+from renders.backends import CyclesBackend, ExrImages
 from renders.collect import collected
 from renders.contact_sheet import write_contact_sheet
 from renders.plan import plan_render
@@ -29,7 +30,12 @@ def sample_path(
     folder = tmp_path_factory.mktemp("staged")
     path = folder / "samples" / "chest" / "000001.tar"
     seconds = render_asset(
-        bundle, path, settings=SETTINGS, seed=4, scratch=folder / "work", worker=blender
+        bundle,
+        path,
+        settings=SETTINGS,
+        seed=4,
+        scratch=folder / "work",
+        backend=CyclesBackend(blender),
     )
     assert set(seconds) == {"plan", "render", "collect"}
     assert not any((folder / "work").iterdir())
@@ -73,7 +79,7 @@ def test_rendering_again_in_another_process_gives_the_same_bytes(
             settings=SETTINGS,
             seed=4,
             scratch=tmp_path / "work",
-            worker=other,
+            backend=CyclesBackend(other),
         )
     assert (tmp_path / "again.tar").read_bytes() == sample_path.read_bytes()
 
@@ -89,7 +95,7 @@ def test_the_contact_sheet_repeats(sample_path: Path, tmp_path: Path) -> None:
 def test_a_missing_image_is_told(bundle: Bundle, tmp_path: Path) -> None:
     plan = plan_render(bundle, Stream(1), settings=SETTINGS, folder=tmp_path)
     with pytest.raises(RenderError, match=r"0000\.exr cannot be read"):
-        collected(plan, tmp_path)
+        collected(plan, ExrImages(plan, tmp_path), shading="cycles")
 
 
 def test_a_folder_without_bundles_is_told(tmp_path: Path) -> None:

@@ -1,0 +1,83 @@
+"""Who makes the pictures of a plan: Cycles in a Blender process, or the fast rasterizer here."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Protocol, overload
+
+from artgen.core.errors import RenderError
+from artgen.core.jsonio import plain
+from artgen.imaging import Singles, read_exr
+from artgen.worker import BlenderWorker
+from renders.plan import RenderPlan
+
+CYCLES = "cycles"
+TIMEOUT_S = 900.0
+"""A sample takes 10 to 30 CPU s at 128 px; large images on a busy machine take more."""
+
+
+class Backend(Protocol):
+    """Makes the images of a plan.
+
+    Attributes:
+        shading: names the shading model; every sample records it.
+    """
+
+    shading: str
+
+    def images(self, plan: RenderPlan, folder: Path) -> Sequence[Singles]:
+        """For each shot of the plan (h, w, 4) float32 of its window, linear RGB premultiplied by
+        alpha; may use files in `folder`."""
+
+
+class CyclesBackend:
+    """Path tracing by a Blender process."""
+
+    shading = CYCLES
+
+    def __init__(self, worker: BlenderWorker) -> None:
+        self._worker = worker
+
+    def images(self, plan: RenderPlan, folder: Path) -> Sequence[Singles]:
+        """Blender writes the files; each is read when it is asked for.
+
+        Raises:
+            WorkerError: Blender failed.
+        """
+        self._worker.run(plain(plan.job), timeout_s=TIMEOUT_S)
+        return ExrImages(plan, folder)
+
+
+class ExrImages(Sequence[Singles]):
+    """The images of a plan's shots in a folder, read one at a time: all of them may be large."""
+
+    def __init__(self, plan: RenderPlan, folder: Path) -> None:
+        self._shots = plan.passes.shots
+        self._folder = folder
+
+    def __len__(self) -> int:
+        return len(self._shots)
+
+    @overload
+    def __getitem__(self, index: int) -> Singles: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Singles]: ...
+
+    def __getitem__(self, index: int | slice) -> Singles | Sequence[Singles]:
+        """One image or several.
+
+        Raises:
+            RenderError: a file is missing, of another size, or not finite.
+        """
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        shot = self._shots[index]
+        path = self._folder / shot.file
+        image = read_exr(path)
+        left, top, right, bottom = shot.box
+        if image.shape[:2] != (bottom - top, right - left):
+            raise RenderError(
+                f"{path} is {image.shape[1]} x {image.shape[0]} px, its window "
+                f"{right - left} x {bottom - top}; Blender rounded the window's border"
+            )
+        return image
