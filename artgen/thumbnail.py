@@ -54,13 +54,14 @@ def thumbnail_job(obj: ArticulatedObject, *, glb: Path, folder: Path) -> RenderJ
     shot = Shot(
         file="view.exr", camera=0, state=0, part=None, box=(0, 0, SIZE, SIZE), samples=SAMPLES
     )
+    rig = portrait_rig(center=(low + high) / 2.0, radius=float(np.linalg.norm(high - low) / 2.0))
     return RenderJob(
         glb=str(glb.resolve()),
         folder=str(folder),
         cameras=(view.stated,),
         states=(poses,),
-        rig=portrait_rig(center=(low + high) / 2.0, radius=float(np.linalg.norm(high - low) / 2.0)),
-        transport=needed_transport(obj.surfaces),
+        rig=rig,
+        transport=needed_transport(obj.surfaces, rig),
         shots=(shot,),
         seed=0,
     )

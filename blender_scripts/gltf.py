@@ -12,7 +12,7 @@ from artgen.finish_jobs import GltfJob, read_gltf_arrays
 from blender_scripts import scene
 from blender_scripts.bake import bake_occlusion
 from blender_scripts.glb import read_glb, write_glb
-from blender_scripts.materials import add_occlusion, principled_material
+from blender_scripts.gltf_materials import add_occlusion, principled_material
 from blender_scripts.meshes import mesh_from_arrays
 
 

@@ -1,89 +1,44 @@
-"""Surfaces as Principled materials that Blender's glTF exporter understands."""
+"""What an exported GLB does not say of its materials, put into the imported ones by name.
 
-from pathlib import Path
+Standard library and bpy alone: this runs in Blender's own Python on render farms.
+"""
+
+import math
+from collections.abc import Iterator
 
 import bpy
 
-from artgen.finish_jobs import GltfSurface
-from artgen.render_job import Sky, ThinGlass
-from blender_scripts.lights import sky_color
-from blender_scripts.meshes import ATLAS, UV
+from artgen.render_job import Absorption, LightRig, Relief, Subsurface, ThinGlass, Transport
+from blender_scripts.lights import surrounding_color
 
-OCCLUSION_GROUP = "glTF Material Output"
-
-
-def principled_material(surface: GltfSurface) -> bpy.types.Material:
-    """Factors where there is no image, images by the first UV set where there is one."""
-    material = bpy.data.materials.new(surface.name)
-    material.use_nodes = True
-    material.use_backface_culling = True  # closed bodies: single-sided in glTF
-    tree = material.node_tree
-    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
-    put = shader.inputs
-    put["Base Color"].default_value = (*surface.color, 1.0)
-    put["Roughness"].default_value = surface.roughness
-    put["Metallic"].default_value = surface.metallic
-    put["IOR"].default_value = surface.ior
-    put["Transmission Weight"].default_value = surface.transmission
-    put["Emission Color"].default_value = (*surface.color, 1.0)
-    put["Emission Strength"].default_value = surface.emission
-    images = surface.images
-    if images.color is not None:
-        tree.links.new(_image(tree, images.color, "sRGB").outputs["Color"], put["Base Color"])
-    if images.emission is not None and surface.emission > 0.0:
-        node = _image(tree, images.emission, "sRGB")
-        tree.links.new(node.outputs["Color"], put["Emission Color"])
-    if images.orm is not None:
-        split = tree.nodes.new("ShaderNodeSeparateColor")
-        tree.links.new(_image(tree, images.orm, "Non-Color").outputs["Color"], split.inputs[0])
-        tree.links.new(split.outputs["Green"], put["Roughness"])
-        tree.links.new(split.outputs["Blue"], put["Metallic"])
-    if images.normal is not None:
-        bump = tree.nodes.new("ShaderNodeNormalMap")
-        bump.uv_map = UV
-        tree.links.new(_image(tree, images.normal, "Non-Color").outputs["Color"], bump.inputs[1])
-        tree.links.new(bump.outputs["Normal"], put["Normal"])
-    return material
+FINEST = 6
+"""Times that a displaced mesh is split in four at most; six make 4096 triangles of one."""
 
 
-def add_occlusion(material: bpy.types.Material, path: str) -> None:
-    """Ambient occlusion by the atlas; the exporter looks for a group of this name."""
-    group = bpy.data.node_groups.get(OCCLUSION_GROUP)
-    if group is None:
-        group = bpy.data.node_groups.new(OCCLUSION_GROUP, "ShaderNodeTree")
-        group.interface.new_socket("Occlusion", in_out="INPUT", socket_type="NodeSocketFloat")
-    tree = material.node_tree
-    node = tree.nodes.new("ShaderNodeGroup")
-    node.node_tree = group
-    split = tree.nodes.new("ShaderNodeSeparateColor")
-    tree.links.new(_image(tree, path, "Non-Color", ATLAS).outputs["Color"], split.inputs[0])
-    tree.links.new(split.outputs["Red"], node.inputs["Occlusion"])
+def apply_transport(transport: Transport, rig: LightRig) -> None:
+    """Rebuild or complete the materials that the transport names."""
+    for pane in transport.panes:
+        make_thin_glass(pane, rig)
+    for body in transport.subsurface:
+        make_subsurface(body)
+    for body in transport.absorbing:
+        make_absorbing(body)
+    for body in transport.relief:
+        make_relief(body)
 
 
-def _image(
-    tree: bpy.types.NodeTree, path: str, space: str, layer: str = UV
-) -> bpy.types.ShaderNodeTexImage:
-    """A texture node that reads the file by a UV set; one image block a file."""
-    node = tree.nodes.new("ShaderNodeTexImage")
-    node.image = bpy.data.images.load(path, check_existing=True)
-    node.image.name = Path(path).stem
-    node.image.colorspace_settings.name = space
-    place = tree.nodes.new("ShaderNodeUVMap")
-    place.uv_map = layer
-    tree.links.new(place.outputs["UV"], node.inputs["Vector"])
-    return node
-
-
-def make_thin_glass(pane: ThinGlass, sky: Sky) -> None:
-    """Rebuild an imported material as a pane: light passes straight, the sky is mirrored by
-    Fresnel's law.
+def make_thin_glass(pane: ThinGlass, rig: LightRig) -> None:
+    """Rebuild an imported material as a pane: light passes straight, the surrounding is mirrored
+    by Fresnel's law.
 
     A mirror closure beside a transparent one makes Cycles toss a coin at every hit, and the coin's
     noise stays in alpha, which no denoiser cleans. Mirrored light as emission needs no coin; it
     leaves out reflections of the object itself. Refraction in a flat pane only shifts the view by a
     fraction of its thickness.
     """
-    material = bpy.data.materials[pane.surface]
+    material = _material(pane.surface)
+    if material is None:
+        return
     material.cycles.emission_sampling = "NONE"
     tree = material.node_tree
     tree.nodes.clear()
@@ -99,7 +54,7 @@ def make_thin_glass(pane: ThinGlass, sky: Sky) -> None:
     direction = tree.nodes.new("ShaderNodeTexCoord").outputs["Reflection"]
     tree.links.new(mirrored, passed.inputs["Factor"])
     tree.links.new(passed.outputs["Result"], clear.inputs["Color"])
-    tree.links.new(sky_color(tree, direction, sky), glow.inputs["Color"])
+    tree.links.new(surrounding_color(tree, direction, rig), glow.inputs["Color"])
     tree.links.new(mirrored, glow.inputs["Strength"])
     tree.links.new(clear.outputs["BSDF"], both.inputs[0])
     tree.links.new(glow.outputs["Emission"], both.inputs[1])
@@ -120,3 +75,85 @@ def _fresnel(tree: bpy.types.NodeTree, ior: float) -> bpy.types.NodeSocket:
     tree.links.new(side.outputs["Backfacing"], index.inputs["Factor"])
     tree.links.new(index.outputs["Result"], fresnel.inputs["IOR"])
     return fresnel.outputs["Fac"]
+
+
+def make_subsurface(body: Subsurface) -> None:
+    """Light enters the body, scatters and leaves elsewhere; the base color stays what it was."""
+    for shader in _principled(body.surface):
+        shader.subsurface_method = "RANDOM_WALK"
+        shader.inputs["Subsurface Weight"].default_value = 1.0
+        shader.inputs["Subsurface Scale"].default_value = body.depth
+        shader.inputs["Subsurface Radius"].default_value = (1.0, 1.0, 1.0)
+
+
+def make_absorbing(body: Absorption) -> None:
+    """A clear refracting body whose inside takes light away: exp(-density * way) is left.
+
+    Blender absorbs (1 - color) * density a metre, so the densest channel sets the number and the
+    others follow by color.
+    """
+    material = _material(body.surface)
+    if material is None:
+        return
+    tree = material.node_tree
+    for shader in _principled(body.surface):
+        color = shader.inputs["Base Color"]
+        for link in list(color.links):
+            tree.links.remove(link)
+        color.default_value = (1.0, 1.0, 1.0, 1.0)
+    densest = max(body.density)
+    inside = tree.nodes.new("ShaderNodeVolumeAbsorption")
+    inside.inputs["Color"].default_value = (*(1.0 - d / densest for d in body.density), 1.0)
+    inside.inputs["Density"].default_value = densest
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(inside.outputs["Volume"], output.inputs["Volume"])
+
+
+def make_relief(body: Relief) -> None:
+    """Bumps carved into the surface: its meshes are welded, split fine, and displaced inward, so
+    that the body stays within its bounds."""
+    material = _material(body.surface)
+    if material is None:
+        return
+    tree = material.node_tree
+    material.displacement_method = "DISPLACEMENT"
+    place = tree.nodes.new("ShaderNodeTexCoord")
+    noise = tree.nodes.new("ShaderNodeTexNoise")
+    noise.inputs["Scale"].default_value = 1.0 / body.size
+    noise.inputs["Detail"].default_value = 2.0
+    carve = tree.nodes.new("ShaderNodeDisplacement")
+    carve.inputs["Midlevel"].default_value = 1.0
+    carve.inputs["Scale"].default_value = body.height
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(place.outputs["Object"], noise.inputs["Vector"])
+    tree.links.new(noise.outputs["Fac"], carve.inputs["Height"])
+    tree.links.new(carve.outputs["Displacement"], output.inputs["Displacement"])
+    for node in bpy.data.objects:
+        if node.type == "MESH" and material.name in node.data.materials:
+            _split_fine(node, body.size / 3.0)
+
+
+def _split_fine(node: bpy.types.Object, edge: float) -> None:
+    """Weld corners that the file holds apart, then split triangles until none is longer than
+    `edge` m, or FINEST times."""
+    weld = node.modifiers.new("weld", "WELD")
+    weld.merge_threshold = 1e-6
+    corners = [vertex.co for vertex in node.data.vertices]
+    longest = max(
+        (corners[a] - corners[b]).length for a, b in (edge.vertices for edge in node.data.edges)
+    )
+    levels = min(FINEST, max(0, math.ceil(math.log2(longest / edge))))
+    split = node.modifiers.new("split", "SUBSURF")
+    split.subdivision_type = "SIMPLE"
+    split.levels = split.render_levels = levels
+
+
+def _material(surface: str) -> bpy.types.Material | None:
+    """The imported material; None where no triangle of the file uses the surface."""
+    return bpy.data.materials.get(surface)
+
+
+def _principled(surface: str) -> Iterator[bpy.types.ShaderNode]:
+    material = _material(surface)
+    nodes = () if material is None else material.node_tree.nodes
+    return (node for node in nodes if node.type == "BSDF_PRINCIPLED")

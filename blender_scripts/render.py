@@ -1,4 +1,7 @@
-"""The render job: import a GLB, pose its parts, render each shot with Cycles."""
+"""The render job: import a GLB, pose its parts, render each shot with Cycles.
+
+Standard library and bpy alone: this runs in Blender's own Python on render farms.
+"""
 
 import math
 import time
@@ -7,52 +10,75 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from mathutils import Matrix
 
+from artgen.core.errors import RenderError
 from artgen.render_job import RenderJob, Shot, Transport
 from blender_scripts import scene as scenes
 from blender_scripts.camera import add_camera, set_window
 from blender_scripts.lights import add_rig
-from blender_scripts.materials import make_thin_glass
+from blender_scripts.materials import apply_transport
+from blender_scripts.posing import Posing
 
 
 def run(job: Mapping[str, Any], threads: int) -> dict[str, Any]:
-    """Render all shots; the report holds the seconds of each stage."""
+    """Render all shots; the report holds wall and CPU seconds of each stage.
+
+    Raises:
+        RenderError: the GLB is unreadable, lacks a part that the job poses, or lacks an image; or
+            Blender wrote no image.
+    """
     task = RenderJob.from_plain(job)
-    started = time.perf_counter()
+    clock = _Clock()
     scene = scenes.reset()
-    parts = _import_parts(task.glb)
-    rest = {name: node.matrix_world.copy() for name, node in parts.items()}
-    for pane in task.transport.panes:
-        make_thin_glass(pane, task.rig.sky)
-    add_rig(scene, task.rig)
+    posing = Posing(import_parts(task), task)
+    apply_transport(task.transport, task.rig)
+    ground = add_rig(scene, task.rig)
     cameras = [add_camera(f"camera_{k}", camera) for k, camera in enumerate(task.cameras)]
     _configure(scene, task, threads)
-    built = time.perf_counter()
+    clock.stop("import")
     for shot in task.shots:
-        for name, node in parts.items():
-            node.matrix_world = Matrix(task.states[shot.state][name]) @ rest[name]
-            node.hide_render = shot.part not in (None, name)
+        posing.show(shot)
+        if ground is not None:
+            ground.hide_render = shot.part is not None
         scene.camera = cameras[shot.camera]
         set_window(scene, task.cameras[shot.camera].size, shot.box)
         _render(scene, shot, Path(task.folder))
-    rendered = time.perf_counter()
-    return {
-        "files": [shot.file for shot in task.shots],
-        "stages": {"import": built - started, "render": rendered - built},
-    }
+        clock.stop("composite" if shot.part is None else "alone")
+    return {"files": [shot.file for shot in task.shots], "stages": clock.wall, "cpu": clock.cpu}
 
 
-def _import_parts(glb: str) -> dict[str, bpy.types.Object]:
-    """Mesh objects by name, freed from their parents but where they were."""
-    bpy.ops.import_scene.gltf(filepath=glb)
+def import_parts(task: RenderJob) -> dict[str, bpy.types.Object]:
+    """Mesh objects by name, freed from their parents but where they were.
+
+    Raises:
+        RenderError: as `run`.
+    """
+    try:
+        bpy.ops.import_scene.gltf(filepath=task.glb)
+    except RuntimeError as error:
+        raise RenderError(
+            f"{task.glb} cannot be imported ({str(error).strip().splitlines()[-1]}); write it anew"
+        ) from error
     bpy.context.view_layer.update()
     parts = {node.name: node for node in bpy.data.objects if node.type == "MESH"}
     placed = {name: node.matrix_world.copy() for name, node in parts.items()}
     for name, node in parts.items():
         node.parent = None
         node.matrix_world = placed[name]
+    _check_import(task, set(parts))
     return parts
+
+
+def _check_import(task: RenderJob, parts: set[str]) -> None:
+    stated = {name for state in task.states for name in state}
+    if stated != parts:
+        raise RenderError(
+            f"{task.glb} holds parts {sorted(parts)}, the job poses {sorted(stated)}; write the "
+            "GLB anew"
+        )
+    for image in bpy.data.images:
+        if image.source == "FILE" and 0 in image.size:
+            raise RenderError(f"{task.glb} lacks the texture {image.name}; write the GLB anew")
 
 
 def _configure(scene: bpy.types.Scene, task: RenderJob, threads: int) -> None:
@@ -61,10 +87,8 @@ def _configure(scene: bpy.types.Scene, task: RenderJob, threads: int) -> None:
     render.threads_mode, render.threads = "FIXED", threads
     render.use_persistent_data = True
     render.film_transparent = True
-    render.image_settings.file_format = "OPEN_EXR"
-    render.image_settings.color_mode = "RGBA"
-    render.image_settings.color_depth = "16"
     render.use_file_extension = False
+    _set_output(scene, task)
     cycles.device = "CPU"
     cycles.seed = task.seed
     cycles.use_adaptive_sampling = task.adaptive > 0.0
@@ -74,7 +98,23 @@ def _configure(scene: bpy.types.Scene, task: RenderJob, threads: int) -> None:
     cycles.denoiser = "OPENIMAGEDENOISE"
     cycles.denoising_quality = task.denoise_quality.upper()
     cycles.denoising_prefilter = task.prefilter.upper()
+    cycles.use_light_tree = task.transport.light_tree
+    scene.frame_set(0)
+    render.use_motion_blur = task.transport.motion_blur
+    render.motion_blur_shutter, render.motion_blur_position = 1.0, "START"
     _limit(cycles, task.transport, math.inf if task.bounces is None else task.bounces)
+
+
+def _set_output(scene: bpy.types.Scene, task: RenderJob) -> None:
+    """Scene-linear RGBA with Rec.709 primaries; half floats, unless passes are asked for."""
+    image = scene.render.image_settings
+    image.file_format = "OPEN_EXR_MULTILAYER" if task.passes else "OPEN_EXR"
+    image.color_mode = "RGBA"
+    image.color_depth = "32" if task.passes else "16"
+    layer = scene.view_layers[0]
+    layer.use_pass_z = "depth" in task.passes
+    layer.use_pass_object_index = "part" in task.passes
+    layer.use_pass_diffuse_color = "albedo" in task.passes
 
 
 def _limit(cycles: Any, transport: Transport, most: float) -> None:
@@ -85,8 +125,8 @@ def _limit(cycles: Any, transport: Transport, most: float) -> None:
     cycles.transparent_max_bounces = transport.transparent
     cycles.volume_bounces = 0
     cycles.max_bounces = min(max(transport.diffuse, transport.glossy, transport.transmission), most)
-    cycles.caustics_reflective = False
-    cycles.caustics_refractive = transport.transmission > 0
+    cycles.caustics_reflective = transport.reflective_caustics
+    cycles.caustics_refractive = transport.refractive_caustics
     cycles.sample_clamp_indirect = transport.clamp_indirect
 
 
@@ -94,3 +134,18 @@ def _render(scene: bpy.types.Scene, shot: Shot, folder: Path) -> None:
     scene.cycles.samples = shot.samples
     scene.render.filepath = str(folder / shot.file)
     bpy.ops.render.render(write_still=True)
+
+
+class _Clock:
+    """Seconds by stage, each counted from the end of the one before."""
+
+    def __init__(self) -> None:
+        self.wall: dict[str, float] = {}
+        self.cpu: dict[str, float] = {}
+        self._last = (time.perf_counter(), time.process_time())
+
+    def stop(self, stage: str) -> None:
+        now = (time.perf_counter(), time.process_time())
+        for seconds, start, end in zip((self.wall, self.cpu), self._last, now, strict=True):
+            seconds[stage] = seconds.get(stage, 0.0) + end - start
+        self._last = now

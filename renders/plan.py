@@ -85,7 +85,7 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         cameras=tuple(camera.stated for camera in cameras),
         states=poses,
         rig=rig,
-        transport=needed_transport(bundle.surfaces),
+        transport=needed_transport(bundle.surfaces, rig),
         shots=passes.shots,
         denoise=paths.denoise,
         prefilter=paths.prefilter,

@@ -20,6 +20,14 @@ class SurfaceSpec:
         emission: strength of the emission image or color, relative to a white diffuser in daylight.
         tile: (width, height) in m that one copy of the images covers.
         detail: the recipe's own numbers and words.
+        subsurface: mean way of light inside the body before it leaves elsewhere, m; 0 is none.
+        attenuation: way through a refracting body after which white light has turned to `color`,
+            m; 0 is a clear inside. Such a body is no pane: light is bent at its faces.
+        relief: depth to which bumps are carved into the surface, m; 0 is as the mesh says.
+        relief_size: width of those bumps, m.
+
+    The last four are applied where Cycles renders an imported GLB; GLB, OBJ and USD do not hold
+    them, and labels show the mesh as it is.
     """
 
     name: str
@@ -32,6 +40,10 @@ class SurfaceSpec:
     emission: float = 0.0
     tile: tuple[float, float] = (0.5, 0.5)
     detail: Mapping[str, float | str] = field(default_factory=dict)
+    subsurface: float = 0.0
+    attenuation: float = 0.0
+    relief: float = 0.0
+    relief_size: float = 0.01
 
 
 def linear_from_srgb(value: float) -> float:

@@ -8,7 +8,10 @@ from typing import Any
 from artgen.core.errors import RuleError
 from artgen.core.surface import SurfaceSpec, linear_color
 
-NUMBERS = ("roughness", "metallic", "transmission", "ior", "emission")
+NUMBERS = (
+    *("roughness", "metallic", "transmission", "ior", "emission"),
+    *("subsurface", "attenuation", "relief", "relief_size"),
+)
 KEYS = ("recipe", "color", "tile", "detail", *NUMBERS)
 
 

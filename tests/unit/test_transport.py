@@ -1,6 +1,7 @@
 """Only what the surfaces call for is computed."""
 
 from artgen.core.surface import SurfaceSpec
+from artgen.render_job import LightRig, Sky, Transport
 from artgen.transport import needed_transport
 
 
@@ -8,23 +9,31 @@ def surface(**values: float) -> SurfaceSpec:
     return SurfaceSpec(name="s", recipe="plain", **values)
 
 
+DARK = Sky(nadir=(0.0,) * 3, horizon=(0.0,) * 3, zenith=(0.0,) * 3)
+RIG = LightRig(name="none", lights=(), sky=DARK)
+
+
+def derived(surfaces: list[SurfaceSpec]) -> Transport:
+    return needed_transport(surfaces, RIG)
+
+
 def test_opaque_surfaces_call_for_no_transmission() -> None:
-    transport = needed_transport([surface()])
+    transport = derived([surface()])
     assert (transport.transmission, transport.transparent, transport.panes) == (0, 1, ())
 
 
 def test_a_clear_pane_is_thin_glass_without_refraction() -> None:
-    transport = needed_transport([surface(transmission=1.0, roughness=0.0, ior=1.45)])
+    transport = derived([surface(transmission=1.0, roughness=0.0, ior=1.45)])
     assert transport.transmission == 0
     assert transport.transparent >= 4
     assert [(pane.surface, pane.ior) for pane in transport.panes] == [("s", 1.45)]
 
 
 def test_frosted_glass_is_traced() -> None:
-    transport = needed_transport([surface(transmission=1.0, roughness=0.5)])
+    transport = derived([surface(transmission=1.0, roughness=0.5)])
     assert transport.transmission > 0
     assert transport.panes == ()
 
 
 def test_metal_calls_for_mirrors_in_mirrors() -> None:
-    assert needed_transport([surface(metallic=1.0)]).glossy > needed_transport([surface()]).glossy
+    assert derived([surface(metallic=1.0)]).glossy > derived([surface()]).glossy
