@@ -13,10 +13,13 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from artgen.core.errors import ShardError
-from artgen.dataset.sample import Bytes, Singles
+from artgen.dataset.exr import exr, read_exr
+from artgen.dataset.sample import Bytes, Halves, Singles
 
 WEBP_LIMIT = 16383
 """Largest width or height of a WebP image, px (libwebp)."""
+_RGBA = ("R", "G", "B", "A")
+_XY = ("X", "Y")
 _DEPTH_STEPS = 65534
 """Codes 1 to 65535 span near to far; code 0 is background."""
 
@@ -98,6 +101,26 @@ def png(image: NDArray[np.uint8] | NDArray[np.uint16]) -> bytes:
     buffer = io.BytesIO()
     Image.fromarray(image).save(buffer, "PNG", compress_level=6)
     return buffer.getvalue()
+
+
+def linear_exr(image: Halves) -> bytes:
+    """(H, W, 4) float16 premultiplied RGBA as half float EXR."""
+    return exr(image, _RGBA)
+
+
+def read_linear(data: bytes) -> Halves:
+    """(H, W, 4) float16."""
+    return np.asarray(read_exr(data, _RGBA), np.float16)
+
+
+def flow_exr(image: Singles) -> bytes:
+    """(H, W, 2) float32 px as float EXR with channels X and Y."""
+    return exr(image, _XY)
+
+
+def read_flow(data: bytes) -> Singles:
+    """(H, W, 2) float32."""
+    return np.asarray(read_exr(data, _XY), np.float32)
 
 
 def read_rgba(data: bytes) -> Bytes:

@@ -15,6 +15,7 @@ def check_images(sample: Sample) -> None:
     _check_colors(sample.meta.asset_id, sample.part_rgba, "part_rgba")
     _check_surface(sample.meta.asset_id, sample.depth, sample.normal, "depth and normal")
     _check_surface(sample.meta.asset_id, sample.part_depth, sample.part_normal, "part images")
+    _check_labels(sample)
     asset, count = sample.meta.asset_id, len(sample.meta.parts)
     shown = set(np.unique(sample.part_id).tolist())
     known = {*range(count), BACKGROUND} | ({LEFT_OUT} if sample.meta.parts_left_out else set())
@@ -33,6 +34,25 @@ def check_images(sample: Sample) -> None:
             f"{asset}: {int(wrong.sum())} pixels whose depth differs from that of the part they "
             "show; take the composite as the nearest over parts"
         )
+
+
+def _check_labels(sample: Sample) -> None:
+    """Optional images: labels are 0 on the background, and every number is finite."""
+    asset, background = sample.meta.asset_id, sample.part_id == BACKGROUND
+    for name in ("albedo", "roughness", "flow"):
+        array = getattr(sample, name)
+        if array is not None and array[background].any():
+            raise ShardError(
+                f"{asset}: {name} is not 0 on the background; take it where part_id is a part's"
+            )
+    if sample.flow is not None and sample.flow[-1].any():
+        raise ShardError(f"{asset}: flow of the last state is not 0; no state follows it")
+    for name in ("flow", "linear"):
+        array = getattr(sample, name)
+        if array is not None and not np.isfinite(array).all():
+            raise ShardError(
+                f"{asset}: {name} holds numbers that are not finite; float16 ends at 65504"
+            )
 
 
 def _check_colors(asset: str, rgba: Bytes, name: str) -> None:

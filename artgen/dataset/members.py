@@ -2,7 +2,7 @@
 
 import io
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,17 +17,28 @@ from artgen.dataset import codec
 from artgen.dataset.image_checks import check_images
 from artgen.dataset.sample import Cameras, PartLabel, Sample, SampleMeta
 
-SAMPLE_SCHEMA = "artgen-sample/1"
+SAMPLE_SCHEMA = "artgen-sample/2"
 CONVENTIONS = {
     "angles": "rad",
     "cameras": "OpenCV axes (x right, y down, z forward), camera_from_world, pixel centres at +0.5",
     "color": "sRGB, straight alpha",
     "depth": "m along the camera's z axis",
+    "flow": "px right and down to the next state",
     "lengths": "m",
+    "linear": "linear sRGB primaries, premultiplied alpha",
     "normals": "world frame at the state shown",
     "targets": "relative to center, at rest",
     "world": "object frame: z up, front -y",
 }
+_OPTIONAL: Mapping[
+    str, tuple[str, Callable[[NDArray[Any]], bytes], Callable[[bytes], NDArray[Any]]]
+] = {
+    "albedo": ("albedo.webp", codec.webp, codec.read_rgb),
+    "roughness": ("roughness.png", codec.png, codec.read_gray8),
+    "flow": ("flow.exr", codec.flow_exr, codec.read_flow),
+    "linear": ("linear.exr", codec.linear_exr, codec.read_linear),
+}
+"""Name in Sample to the member's name, its encoder and its decoder."""
 _TARGETS = ("bounds", "type", "axis", "origin", "motion", "parent", "limits", "movable")
 
 
@@ -74,20 +85,30 @@ def decoded(
     vs = _chosen(views, v_all, f"{where}: views")
     width, height = (int(length) for length in arrays["size"])
     depths = codec.DepthRange(**facts["depth_range"])
+
+    def cameras(prefix: str) -> Cameras:
+        return Cameras(
+            intrinsics=arrays[f"{prefix}intrinsics"][vs],
+            camera_from_world=arrays[f"{prefix}camera_from_world"][np.ix_(ts, vs)],
+            size=(width, height),
+        )
+
+    def images(t: int, v: int) -> dict[str, NDArray[Any]]:
+        return _read_images(read, _prefix(t, v), height, depths) | _read_optional(
+            read, _prefix(t, v), facts["images"]
+        )
+
     return Sample(
         meta=_meta(facts),
-        cameras=Cameras(
-            intrinsics=arrays["intrinsics"][vs],
-            camera_from_world=arrays["camera_from_world"][np.ix_(ts, vs)],
-            size=(width, height),
-        ),
+        cameras=cameras(""),
+        stated_cameras=cameras("stated_") if "stated_intrinsics" in arrays else None,
         targets=Targets(
             **{name: arrays[name] for name in _TARGETS} | {"motion": arrays["motion"][ts]}
         ),
         q=_joint_values(facts, ts),
         center=arrays["center"],
         radius=float(arrays["radius"]),
-        **_stacked([[_read_images(read, t, v, height, depths) for v in vs] for t in ts]),
+        **_stacked([[images(t, v) for v in vs] for t in ts]),
     )
 
 
@@ -129,14 +150,19 @@ def _images(sample: Sample, t: int, v: int, depths: codec.DepthRange) -> list[tu
         "parts.depth.png": codec.png(strip(depths.encode(sample.part_depth[at]))),
         "parts.normal.webp": codec.webp(strip(codec.normal_codes(sample.part_normal[at]))),
     }
+    images |= {
+        file: write(getattr(sample, name)[at])
+        for name, (file, write, _) in _OPTIONAL.items()
+        if name in sample.images
+    }
     return [(f"{_prefix(t, v)}.{name}", data) for name, data in images.items()]
 
 
 def _read_images(
-    read: Callable[[str], bytes], t: int, v: int, height: int, depths: codec.DepthRange
+    read: Callable[[str], bytes], prefix: str, height: int, depths: codec.DepthRange
 ) -> dict[str, NDArray[Any]]:
     def member(name: str) -> bytes:
-        return read(f"{_prefix(t, v)}.{name}")
+        return read(f"{prefix}.{name}")
 
     def parts(image: NDArray[Any]) -> NDArray[Any]:
         return image.reshape(-1, height, *image.shape[1:])
@@ -149,6 +175,16 @@ def _read_images(
         "part_rgba": parts(codec.read_rgba(member("parts.rgba.webp"))),
         "part_depth": depths.decode(parts(codec.read_gray16(member("parts.depth.png")))),
         "part_normal": codec.decoded_normals(parts(codec.read_rgb(member("parts.normal.webp")))),
+    }
+
+
+def _read_optional(
+    read: Callable[[str], bytes], prefix: str, images: Sequence[str]
+) -> dict[str, NDArray[Any]]:
+    return {
+        name: decode(read(f"{prefix}.{file}"))
+        for name, (file, _, decode) in _OPTIONAL.items()
+        if name in images
     }
 
 
@@ -168,6 +204,9 @@ def _arrays(sample: Sample) -> bytes:
         "center": sample.center,
         "radius": np.float64(sample.radius),
     } | {name: getattr(sample.targets, name) for name in _TARGETS}
+    if sample.stated_cameras is not None:
+        arrays["stated_intrinsics"] = sample.stated_cameras.intrinsics
+        arrays["stated_camera_from_world"] = sample.stated_cameras.camera_from_world
     buffer = io.BytesIO()
     np.savez(buffer, **arrays)
     return buffer.getvalue()
@@ -179,6 +218,7 @@ def _meta_text(sample: Sample, depths: codec.DepthRange) -> bytes:
         "schema": SAMPLE_SCHEMA,
         "conventions": CONVENTIONS,
         "depth_range": depths,
+        "images": sample.images,
         "states": [dict(zip(names, row, strict=True)) for row in sample.q.tolist()],
         "shape": dict(
             zip(("states", "views", "slots", "height", "width"), sample.shape, strict=True)
@@ -206,6 +246,8 @@ def _meta(facts: dict[str, Any]) -> SampleMeta:
         shading=facts["shading"],
         light=facts["light"],
         effects=facts["effects"],
+        rendering=facts["rendering"],
+        donors=tuple(facts["donors"]),
         slots=facts["slots"],
         parts_left_out=tuple(facts["parts_left_out"]),
     )

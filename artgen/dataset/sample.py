@@ -15,10 +15,12 @@ from numpy.typing import NDArray
 from artgen.articulation.targets import FIXED, PRISMATIC, Targets
 from artgen.articulation.types import Joint, Precondition
 from artgen.core.errors import ShardError
+from artgen.core.jsonio import plain
 from artgen.core.mesh import Floats, frozen
 
 Bytes = NDArray[np.uint8]
 Singles = NDArray[np.float32]
+Halves = NDArray[np.float16]
 
 BACKGROUND = 255
 """Part id of a pixel whose centre no part covers."""
@@ -36,6 +38,13 @@ _IMAGES: Mapping[str, tuple[str, str]] = {
     "part_depth": ("TVPHW", "float32"),
     "part_normal": ("TVPHW3", "float32"),
 }
+OPTIONAL_IMAGES: Mapping[str, tuple[str, str]] = {
+    "albedo": ("TVHW3", "uint8"),
+    "roughness": ("TVHW", "uint8"),
+    "flow": ("TVHW2", "float32"),
+    "linear": ("TVHW4", "float16"),
+}
+"""Axes and type of the images that a sample holds only where they were asked for."""
 _TARGETS: Mapping[str, tuple[str, type[np.generic]]] = {
     "bounds": ("P23", np.float64),
     "type": ("P", np.int8),
@@ -69,6 +78,9 @@ class SampleMeta:
         shading: what the colors are, e.g. `cycles`.
         light: the light rig's identifier.
         effects: post-render effects by name; empty when none was asked for.
+        rendering: settings, backend, accuracy with its promise, transport; as JSON has it.
+        donors: ids of the assets whose parts a recombined asset borrows, down to those that borrow
+            nothing themselves; empty for an asset of its own. They decide the split.
         slots: the P that `to_slots` cut or padded to; None while P is the number of parts.
         parts_left_out: names of parts of the asset that the arrays do not hold.
     """
@@ -84,10 +96,14 @@ class SampleMeta:
     shading: str
     light: str
     effects: Mapping[str, object] = field(default_factory=dict)
+    rendering: Mapping[str, object] = field(default_factory=dict)
+    donors: tuple[str, ...] = ()
     slots: int | None = None
     parts_left_out: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "effects", plain(self.effects))
+        object.__setattr__(self, "rendering", plain(self.rendering))
         if not re.fullmatch(r"[a-z0-9_]{1,64}", self.asset_id):
             raise ShardError(
                 f"asset id {self.asset_id!r} cannot name shard members; use 1 to 64 lower-case "
@@ -174,6 +190,15 @@ class Sample:
         q: (T, J) joint values, rad or m, in the order of `meta.joints`, mimics included.
         center: (3,) middle of the bounding sphere, m, object frame.
         radius: of the bounding sphere, m.
+        albedo: (T, V, H, W, 3) uint8, sRGB base color of the surface seen at a pixel's centre; 0 is
+            background. This and all below are None where they were not asked for.
+        roughness: (T, V, H, W) uint8 of the surface seen, 255 = 1; 0 is background.
+        flow: (T, V, H, W, 2) float32 px (right, down): where the surface point seen at a pixel's
+            centre in state t lies in state t + 1, minus where it lies in t; 0 for background and in
+            the last state.
+        linear: (T, V, H, W, 4) float16, the composite before display: linear RGB premultiplied by
+            alpha.
+        stated_cameras: the poses that a user would be given, with noise; `cameras` stay true.
     """
 
     meta: SampleMeta
@@ -189,19 +214,29 @@ class Sample:
     part_rgba: Bytes
     part_depth: Singles
     part_normal: Singles
+    albedo: Bytes | None = None
+    roughness: Bytes | None = None
+    flow: Singles | None = None
+    linear: Halves | None = None
+    stated_cameras: Cameras | None = None
 
     def __post_init__(self) -> None:
         put = object.__setattr__
         put(self, "center", frozen(self.center, np.float64))
         put(self, "q", frozen(self.q, np.float64))
         put(self, "radius", float(self.radius))
-        for name in _IMAGES:
+        for name in self.images:
             view = np.ascontiguousarray(getattr(self, name)).view()
             view.setflags(write=False)
             put(self, name, view)
         put(self, "targets", _frozen_targets(self.targets))
         self._check_shapes()
         self._check_targets()
+
+    @property
+    def images(self) -> tuple[str, ...]:
+        """Names of the image arrays that are there."""
+        return (*_IMAGES, *(name for name in OPTIONAL_IMAGES if getattr(self, name) is not None))
 
     @property
     def shape(self) -> tuple[int, int, int, int, int]:
@@ -237,7 +272,9 @@ class Sample:
         if min(length.values()) < 1:
             raise ShardError(f"{asset}: part_depth has an empty axis: {self.part_depth.shape}")
         length.update({digit: int(digit) for digit in "234"})
-        for name, (axes, dtype) in _IMAGES.items():
+        kinds = {**_IMAGES, **OPTIONAL_IMAGES}
+        for name in self.images:
+            axes, dtype = kinds[name]
             array = getattr(self, name)
             _expect_shape(f"{asset}: {name}", array, tuple(length[axis] for axis in axes))
             if array.dtype != dtype:
@@ -247,13 +284,9 @@ class Sample:
             _expect_shape(f"{asset}: targets.{name}", getattr(self.targets, name), expected)
         _expect_shape(f"{asset}: q", self.q, (length["T"], len(self.meta.joints)))
         _expect_shape(f"{asset}: center", self.center, (3,))
-        cameras = (length["T"], length["V"], 4, 4)
-        _expect_shape(f"{asset}: camera_from_world", self.cameras.camera_from_world, cameras)
-        if self.cameras.size != (length["W"], length["H"]):
-            raise ShardError(
-                f"{asset}: cameras are {self.cameras.size} px (w, h), images "
-                f"{(length['W'], length['H'])}; render at the planned size"
-            )
+        _expect_cameras(f"{asset}: cameras", self.cameras, length)
+        if self.stated_cameras is not None:
+            _expect_cameras(f"{asset}: stated_cameras", self.stated_cameras, length)
         slots = self.meta.slots or len(self.meta.parts)
         if not len(self.meta.parts) <= slots == length["P"]:
             raise ShardError(
@@ -292,6 +325,16 @@ def _frozen_targets(targets: Targets) -> Targets:
         name: frozen(getattr(targets, name), dtype) for name, (_, dtype) in _TARGETS.items()
     }
     return Targets(**arrays)
+
+
+def _expect_cameras(where: str, cameras: Cameras, length: Mapping[str, int]) -> None:
+    poses = (length["T"], length["V"], 4, 4)
+    _expect_shape(f"{where}.camera_from_world", cameras.camera_from_world, poses)
+    if cameras.size != (length["W"], length["H"]):
+        raise ShardError(
+            f"{where} are {cameras.size} px (w, h), images {(length['W'], length['H'])}; render at "
+            "the planned size"
+        )
 
 
 def _expect_shape(where: str, array: NDArray[np.generic], expected: tuple[int, ...]) -> None:

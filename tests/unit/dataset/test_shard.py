@@ -234,11 +234,11 @@ def test_an_old_shard_schema_is_named_with_ours_and_a_remedy(copied):
 
 def test_an_old_sample_schema_is_named_with_ours_and_a_remedy(tmp_path):
     sample = encoded(made_sample())
-    old = sample.members[0][1].replace(b"artgen-sample/1", b"artgen-sample/0")
+    old = sample.members[0][1].replace(b"artgen-sample/2", b"artgen-sample/1")
     members = (("meta.json", old), *sample.members[1:])
     path = tmp_path / "a.tar"
     write_shard(path, [type(sample)(asset_id=sample.asset_id, members=members)])
-    with pytest.raises(ShardError, match=r"'artgen-sample/0'.*'artgen-sample/1'; render and pack"):
+    with pytest.raises(ShardError, match=r"'artgen-sample/1'.*'artgen-sample/2'; render and pack"):
         list(read_shard(path))
 
 

@@ -11,7 +11,7 @@ from artgen.dataset.catalog import ASSETS, SAMPLES
 from artgen.dataset.folder import shard_folder
 from artgen.dataset.members import encoded
 from tests.unit.dataset.runs import WIDE, made_run
-from tests.unit.dataset.scenes import made_sample
+from tests.unit.dataset.scenes import made_sample, with_extras
 
 DOCUMENT = (Path(__file__).parents[3] / "docs" / "shard_format.md").read_text(encoding="utf-8")
 READER, QUERY = re.findall(r"```python\n(.*?)```", DOCUMENT, flags=re.DOTALL)
@@ -41,7 +41,7 @@ def test_both_queries_find_the_wide_laptops(capsys):
 
 
 def test_every_member_and_array_is_in_the_tables():
-    sample = encoded(made_sample(states=1, views=4))
+    sample = encoded(with_extras(made_sample(states=1, views=4)))
     listed = re.findall(r"^\| `([\w.]+)` \|", DOCUMENT, flags=re.MULTILINE)
     for name, data in sample.members:
         if not re.match(r"s0v0[012]", name):
