@@ -1,0 +1,1 @@
+"""`artgen study simulate`: what accuracy of simulation costs in time."""
