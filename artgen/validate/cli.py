@@ -12,9 +12,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import write_json
-from artgen.export.layout import MANIFEST
+from artgen.export.layout import MANIFEST, REPORT
 from artgen.validate import Report, validate_bundle
-from artgen.validate.files import REPORT
 
 QUIET_S = 2.0
 """Runs that are shorter show no progress bar."""

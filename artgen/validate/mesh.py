@@ -7,10 +7,11 @@ import numpy as np
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import TriMesh
 from artgen.export.layout import GLB
-from artgen.geometry.convex import convexity_gap
+from artgen.geometry.convex import as_box, convexity_gap
 from artgen.geometry.measure import open_edges
-from artgen.validate import bounds
 from artgen.validate.bounds import Bound
+from artgen.validate.bundle_subject import BundleSubject
+from artgen.validate.files import EXPORT_ANEW
 from artgen.validate.glb import node_bounds, read_gltf
 from artgen.validate.report import Finding
 from artgen.validate.subject import Subject
@@ -26,7 +27,8 @@ def readable(subject: Subject) -> Iterator[Finding]:
                 part=label,
                 value=mesh,
                 bound="readable triangles",
-                message="MuJoCo refuses such a mesh too; export the asset anew",
+                cause="MuJoCo refuses such a mesh too",
+                remedy=EXPORT_ANEW,
             )
 
 
@@ -41,7 +43,8 @@ def closed(subject: Subject) -> Iterator[Finding]:
                     part=f"{name}, body {index}",
                     value=value,
                     bound="0 edges",
-                    message=f"manifold3d says {status}: {cause}; check the solid and its bevel",
+                    cause=f"manifold3d says {status}: {cause}",
+                    remedy="check the solid and its bevel",
                 )
 
 
@@ -68,7 +71,8 @@ def volumes(subject: Subject) -> Iterator[Finding]:
                     part=f"{name}, body {index}",
                     value=volume,
                     bound="> 0 m3",
-                    message="its triangles wind inward, so mass comes out negative; flip them",
+                    cause="its triangles wind inward, so mass comes out negative",
+                    remedy="flip them",
                 )
 
 
@@ -76,13 +80,14 @@ def sizes(subject: Subject) -> Iterator[Finding]:
     """Parts are neither crumbs nor houses."""
     for name, mesh in subject.meshes.items():
         longest = float(np.diff(mesh.bounds, axis=0).max())
-        if not bounds.SMALLEST.value <= longest <= bounds.LARGEST.value:
+        if not subject.bounds.smallest.value <= longest <= subject.bounds.largest.value:
             yield Finding(
                 check="mesh.size",
                 part=name,
                 value=longest,
-                bound=f"{bounds.SMALLEST.value:g} to {bounds.LARGEST.value:g} m",
-                message="the longest side is out of range; lengths are meters",
+                bound=f"{subject.bounds.smallest.value:g} to {subject.bounds.largest.value:g} m",
+                cause="the longest side is out of range",
+                remedy="write lengths in meters",
             )
 
 
@@ -91,13 +96,14 @@ def triangles(subject: Subject) -> Iterator[Finding]:
     for name, mesh in subject.meshes.items():
         a, b, c = mesh.triangles.transpose(1, 0, 2)
         areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
-        if (count := int((areas < bounds.MIN_AREA.value).sum())) > 0:
+        if (count := int((areas < subject.bounds.min_area.value).sum())) > 0:
             yield Finding(
                 check="mesh.triangle",
                 part=name,
                 value=float(areas.min()),
-                bound=bounds.MIN_AREA.at_least(),
-                message=f"{count} triangles have no area; weld or dissolve them while finishing",
+                bound=subject.bounds.min_area.at_least(),
+                cause=f"{count} triangles have no area",
+                remedy="weld or dissolve them while finishing",
             )
 
 
@@ -107,27 +113,31 @@ def atlas(subject: Subject) -> Iterator[Finding]:
         if mesh.atlas is None:
             continue
         outside = float(np.maximum(-mesh.atlas, mesh.atlas - 1.0).max())
-        if not outside <= bounds.UV_EDGE.value:
+        if not outside <= subject.bounds.uv_edge.value:
             yield Finding(
                 check="mesh.atlas",
                 part=name,
                 value=outside,
-                bound=bounds.UV_EDGE.at_most(),
-                message="the baked image does not reach there; unwrap anew",
+                bound=subject.bounds.uv_edge.at_most(),
+                cause="the baked image does not reach there",
+                remedy="unwrap anew",
             )
 
 
-def stated(subject: Subject) -> Iterator[Finding]:
+def stated(subject: BundleSubject) -> Iterator[Finding]:
     """Bounds, counts and volume are those that the manifest states."""
     for part in subject.bundle.parts:
         mesh = subject.meshes[part.name]
         found = {
-            "bounds": (float(np.abs(mesh.bounds - part.bounds).max()), bounds.BOUNDS_MATCH.value),
+            "bounds": (
+                float(np.abs(mesh.bounds - part.bounds).max()),
+                subject.bounds.bounds_match.value,
+            ),
             "triangles": (abs(len(mesh.faces) - part.triangles), 0),
             "bodies": (abs(int(mesh.body.max()) + 1 - part.bodies), 0),  # type: ignore[union-attr]
             "volume": (
                 relative_difference(float(subject.volumes[part.name].sum()), part.volume),
-                bounds.INTEGRAL.value,
+                subject.bounds.integral.value,
             ),
         }
         for what, (value, bound) in found.items():
@@ -137,7 +147,8 @@ def stated(subject: Subject) -> Iterator[Finding]:
                     part=part.name,
                     value=float(value),
                     bound=f"{what} within {bound:g} of the manifest's",
-                    message="the OBJ is of another export; export the asset anew",
+                    cause="the OBJ is of another export",
+                    remedy=EXPORT_ANEW,
                 )
 
 
@@ -146,7 +157,7 @@ def relative_difference(one: float, other: float) -> float:
     return 0.0 if one == other else abs(one - other) / max(abs(one), abs(other))
 
 
-def glb(subject: Subject) -> Iterator[Finding]:
+def glb(subject: BundleSubject) -> Iterator[Finding]:
     """The GLB has a node for every part, with the OBJ's bounds at rest."""
     try:
         found = node_bounds(
@@ -160,36 +171,49 @@ def glb(subject: Subject) -> Iterator[Finding]:
             yield _glb_finding(part.name, "no node with geometry", "a node of the part's name")
             continue
         worst = float(np.abs(found[part.name] - subject.meshes[part.name].bounds).max())
-        if not worst <= bounds.GLB_BOUNDS.value:
+        if not worst <= subject.bounds.glb_bounds.value:
             yield _glb_finding(
-                part.name, worst, f"bounds of the OBJ within {bounds.GLB_BOUNDS.value:g} m"
+                part.name, worst, f"bounds of the OBJ within {subject.bounds.glb_bounds.value:g} m"
             )
 
 
 def _glb_finding(part: str, value: float | str, bound: str) -> Finding:
-    message = "the GLB shows another object than the other files; export the asset anew"
-    return Finding(check="mesh.glb", part=part, value=value, bound=bound, message=message)
+    return Finding(
+        check="mesh.glb",
+        part=part,
+        value=value,
+        bound=bound,
+        cause="the GLB shows another object than the other files",
+        remedy=EXPORT_ANEW,
+    )
 
 
 def collision(subject: Subject) -> Iterator[Finding]:
     """Collision pieces are convex and stay within the part; MuJoCo fills what is not convex."""
-    margin = np.array([[-1.0], [1.0]]) * bounds.COLLISION_REACH.value
-    for part in subject.bundle.parts:
-        lower, upper = subject.meshes[part.name].bounds + margin
-        for index, piece in enumerate(subject.collision[part.name]):
-            label = f"{part.name}, piece {index}"
-            low, high = piece.bounds
-            out = float(max((lower - low).max(), (high - upper).max()))
-            if out > 0.0:
-                excess = out + bounds.COLLISION_REACH.value
-                message = "contact would happen in the air; fit the piece to what it stands for"
-                yield _piece_finding("mesh.reach", label, excess, bounds.COLLISION_REACH, message)
-            if len(piece.vertices) == 8:
+    reach, flat = subject.bounds.collision_reach, subject.bounds.hull_gap
+    margin = np.array([[-1.0], [1.0]]) * reach.value
+    for part, pieces in subject.collision.items():
+        for index, piece in enumerate(pieces):
+            label = f"{part}, piece {index}"
+            if part in subject.meshes:
+                lower, upper = subject.meshes[part].bounds + margin
+                low, high = piece.bounds
+                out = float(max((lower - low).max(), (high - upper).max()))
+                if out > 0.0:
+                    cause, remedy = "contact would happen in the air", "fit the piece to its solid"
+                    yield _piece_finding(
+                        "mesh.reach", label, out + reach.value, reach, cause, remedy
+                    )
+            if len(piece.vertices) == 8 and as_box(piece) is not None:
                 continue
-            if (gap := convexity_gap(piece)) > bounds.HULL_GAP.value:
-                message = "simulators take its hull and fill the hollow; author convex pieces"
-                yield _piece_finding("mesh.convex", label, gap, bounds.HULL_GAP, message)
+            if (gap := convexity_gap(piece)) > flat.value:
+                cause = "simulators take its hull and fill the hollow"
+                yield _piece_finding("mesh.convex", label, gap, flat, cause, "author convex pieces")
 
 
-def _piece_finding(check: str, part: str, value: float, bound: Bound, message: str) -> Finding:
-    return Finding(check=check, part=part, value=value, bound=bound.at_most(), message=message)
+def _piece_finding(
+    check: str, part: str, value: float, bound: Bound, cause: str, remedy: str
+) -> Finding:
+    return Finding(
+        check=check, part=part, value=value, bound=bound.at_most(), cause=cause, remedy=remedy
+    )

@@ -1,25 +1,22 @@
-"""L3: MuJoCo compiles MJCF and URDF, and the models hold what the manifest states."""
+"""L3: MuJoCo compiles the files, and the models hold what the asset states."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import mujoco
 import numpy as np
 
 from artgen.articulation.types import Joint
-from artgen.export.bundle import BundlePart
-from artgen.export.layout import MJCF, URDF
-from artgen.validate import bounds
-from artgen.validate.physics import body_names
+from artgen.core.mesh import Floats
 from artgen.validate.report import Finding
-from artgen.validate.subject import Subject
+from artgen.validate.subject import Subject, SubjectPart
 
 SLIDE = int(mujoco.mjtJoint.mjJNT_SLIDE)
 HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
 
 
 def compiles(subject: Subject) -> Iterator[Finding]:
-    """MuJoCo compiles MJCF and URDF."""
-    for file in (MJCF, URDF):
+    """MuJoCo compiles the files."""
+    for file in subject.model_files:
         try:
             subject.model(file)
         except ValueError as error:
@@ -28,23 +25,20 @@ def compiles(subject: Subject) -> Iterator[Finding]:
                 part=file,
                 value=" ".join(str(error).split()),
                 bound="a model",
-                message="MuJoCo refuses the file; its message tells the element",
+                cause="MuJoCo refuses the file",
+                remedy="mend the element that its message names",
             )
 
 
 def joints(subject: Subject) -> Iterator[Finding]:
     """Every joint is there, of its kind, and its limits are really in force."""
-    for file in (MJCF, URDF):
+    for file in subject.model_files:
         model = subject.model(file)
-        if model.nv != len(subject.bundle.joints):
-            yield _compile_finding(
-                "compile.dof",
-                file,
-                float(model.nv),
-                f"{len(subject.bundle.joints)} degrees of freedom",
-            )
+        if model.nv != len(subject.joints):
+            expected = f"{len(subject.joints)} degrees of freedom"
+            yield _compile_finding("compile.dof", file, float(model.nv), expected)
             continue
-        for joint in subject.bundle.joints:
+        for joint in subject.joints:
             yield from _joint_findings(file, model, joint)
 
 
@@ -68,42 +62,63 @@ def _joint_findings(file: str, model: mujoco.MjModel, joint: Joint) -> Iterator[
 
 
 def _compile_finding(check: str, part: str, value: float | str, bound: str) -> Finding:
-    message = "the compiled model differs from the manifest; check the exporter, then export anew"
-    return Finding(check=check, part=part, value=value, bound=bound, message=message)
+    return Finding(
+        check=check,
+        part=part,
+        value=value,
+        bound=bound,
+        cause="the compiled model differs from what the asset states",
+        remedy="check the exporter, then export anew",
+    )
 
 
 def bodies(subject: Subject) -> Iterator[Finding]:
-    """Every part is a body of its own."""
-    for file in (MJCF, URDF):
-        names = body_names(subject.model(file))
-        for part in subject.bundle.parts:
-            if part.name not in names:
-                yield _compile_finding("compile.body", f"{part.name} ({file})", "missing", "a body")
+    """Every link is a body of its own."""
+    for file in subject.model_files:
+        for name in subject.links:
+            if mujoco.mj_name2id(subject.model(file), mujoco.mjtObj.mjOBJ_BODY, name) < 0:
+                yield _compile_finding("compile.body", f"{name} ({file})", "missing", "a body")
 
 
 def masses(subject: Subject) -> Iterator[Finding]:
-    """Compiled mass, center and inertia of each body are those of the manifest."""
-    for file in (MJCF, URDF):
-        data = mujoco.MjData(subject.model(file))
-        mujoco.mj_kinematics(subject.model(file), data)
-        for part in subject.bundle.parts:
-            for what, value in _mass_errors(subject.model(file), data, part).items():
-                if not value <= bounds.AGREEMENT.value:
-                    label = f"{part.name} ({file})"
-                    expected = f"{what} of the manifest within {bounds.AGREEMENT.value:g}"
+    """Compiled mass, center and inertia of each part are those that the asset states."""
+    bound = subject.bounds.agreement.value
+    for file in subject.model_files:
+        model = subject.model(file)
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        for part in subject.parts:
+            own = [name for name, link in subject.links.items() if link.part == part.name]
+            for what, value in _mass_errors(model, data, part, own).items():
+                if not value <= bound:
+                    label, expected = f"{part.name} ({file})", f"{what} as stated within {bound:g}"
                     yield _compile_finding("compile.mass", label, value, expected)
 
 
 def _mass_errors(
-    model: mujoco.MjModel, data: mujoco.MjData, part: BundlePart
+    model: mujoco.MjModel, data: mujoco.MjData, part: SubjectPart, links: Sequence[str]
 ) -> Mapping[str, float]:
-    """Relative errors of mass and tensor, and the center's in m, of one compiled body at rest."""
-    body = model.body(part.name).id
-    axes = data.ximat[body].reshape(3, 3)
-    tensor = (axes * model.body_inertia[body]) @ axes.T
+    """Relative errors of mass and tensor, and the center's in m, of one compiled part at rest."""
+    if part.mass is None:
+        return {}
+    mass, center, tensor = compiled_mass(model, data, [model.body(name).id for name in links])
     largest = np.abs(part.mass.inertia).max()
     return {
-        "mass": abs(float(model.body_mass[body]) / part.mass.mass - 1.0),
-        "center": float(np.abs(data.xipos[body] - part.mass.center).max()),
+        "mass": abs(mass / part.mass.mass - 1.0),
+        "center": float(np.abs(center - part.mass.center).max()),
         "inertia": float(np.abs(tensor - part.mass.inertia).max() / largest),
     }
+
+
+def compiled_mass(
+    model: mujoco.MjModel, data: mujoco.MjData, bodies: Sequence[int]
+) -> tuple[float, Floats, Floats]:
+    """Mass (kg), center (3,) m and tensor (3, 3) kg m2 about it of bodies together, as posed."""
+    own = model.body_mass[bodies]
+    mass = float(own.sum())
+    center = own @ data.xipos[bodies] / mass
+    axes = data.ximat[bodies].reshape(-1, 3, 3)
+    tensor = ((axes * model.body_inertia[bodies][:, None, :]) @ axes.transpose(0, 2, 1)).sum(axis=0)
+    arms = data.xipos[bodies] - center
+    second = np.einsum("i,ij,ik->jk", own, arms, arms)
+    return mass, center, tensor + np.trace(second) * np.eye(3) - second

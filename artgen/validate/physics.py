@@ -9,20 +9,30 @@ TOLERANCE = 1e-12
 """The default of 1e-8 leaves 1.4 rad on a light handle of a free heavy base, and saves no time."""
 
 
-def compiled(path: Path) -> mujoco.MjModel:
-    """The model in a MJCF or URDF file, with every part a body of its own.
+def read_spec(path: Path) -> mujoco.MjSpec:
+    """What MuJoCo reads from a MJCF or URDF file; ValueError where it refuses.
 
-    Three defaults of MuJoCo would falsify a validation: its asset cache returns the previous
-    content of a rewritten mesh file; it merges static bodies into the world; it resets a diverged
-    state to rest. Visual meshes and textures cannot act on dynamics and take 90 % of the compile
-    time, so they are left out; the mesh level reads them.
+    Its asset cache returns the previous content of a rewritten mesh file, so it is switched off.
+    """
+    quiet()
+    return mujoco.MjSpec.from_file(str(path))
+
+
+def compiled(path: Path) -> mujoco.MjModel:
+    """The model in a MJCF or URDF file, as `compiled_spec` makes it; ValueError where refused."""
+    return compiled_spec(read_spec(path))
+
+
+def compiled_spec(spec: mujoco.MjSpec) -> mujoco.MjModel:
+    """The model of a spec, with every part a body of its own.
+
+    Defaults of MuJoCo would falsify a validation: it merges static bodies into the world; it resets
+    a diverged state to rest. Visual meshes and textures cannot act on dynamics and take 90 % of the
+    compile time, so they are left out; the mesh level reads them.
 
     Raises:
-        ValueError: MuJoCo refuses the file.
+        ValueError: MuJoCo refuses the model.
     """
-    mujoco.mj_setCacheCapacity(mujoco.mj_getCache(), 0)
-    _log_nowhere()
-    spec = mujoco.MjSpec.from_file(str(path))
     spec.compiler.fusestatic = False
     spec.discard_visual()
     for exclude in list(spec.excludes):
@@ -32,6 +42,12 @@ def compiled(path: Path) -> mujoco.MjModel:
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_FILTERPARENT
     return model
+
+
+def quiet() -> None:
+    """Switch off the asset cache and the log of MuJoCo."""
+    mujoco.mj_setCacheCapacity(mujoco.mj_getCache(), 0)
+    _log_nowhere()
 
 
 def _log_nowhere() -> None:

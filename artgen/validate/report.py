@@ -1,11 +1,13 @@
 """What a validation says: findings, what was skipped, and the verdict."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
-from typing import Generic, TypeVar
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
-Subject = TypeVar("Subject")
+from artgen.articulation.types import State
+from artgen.core.jsonio import plain
+
+SCHEMA = "artgen-report/2"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,14 +19,20 @@ class Finding:
         part: the part, joint, pair or file it is about.
         value: what was found; a number, or words where there is none.
         bound: what was expected, with its unit.
-        message: cause and remedy, in one line.
+        cause: what makes it so.
+        remedy: what to do about it.
+        joint: the joint that was moved, where one was.
+        state: joint name to q (rad or m) at the worst pose, where there is one.
     """
 
     check: str
     part: str
     value: float | str
     bound: str
-    message: str
+    cause: str
+    remedy: str
+    joint: str | None = None
+    state: State | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.value, float) and not math.isfinite(self.value):
@@ -32,7 +40,8 @@ class Finding:
 
     def __str__(self) -> str:
         shown = f"{self.value:.6g}" if isinstance(self.value, float) else self.value
-        return f"{self.check}: {self.part}: {shown} (expected {self.bound}); {self.message}"
+        said = f"{self.check}: {self.part}: {shown} (expected {self.bound})"
+        return f"{said}; {self.cause}; {self.remedy}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,11 +54,21 @@ class Skipped:
 
 @dataclass(frozen=True, kw_only=True)
 class Report:
-    """The verdict on one bundle; no findings means valid."""
+    """The verdict on one asset; no findings means valid.
+
+    Attributes:
+        asset: its name.
+        format: what it was read from: bundle, urdf, mjcf or usd.
+        judged: names of the checks that ran.
+        seconds: CPU seconds by level; no part of equality, as clocks differ.
+    """
 
     asset: str
     findings: tuple[Finding, ...]
     skipped: tuple[Skipped, ...] = ()
+    format: str = "bundle"
+    judged: tuple[str, ...] = ()
+    seconds: Mapping[str, float] = field(default_factory=dict, compare=False)
 
     @property
     def ok(self) -> bool:
@@ -57,40 +76,31 @@ class Report:
         return not self.findings
 
     def as_json(self) -> Mapping[str, object]:
-        """Plain data for `report.json`."""
+        """Plain data for `report.json`; equal assets give equal data, so it holds no times."""
         return {
-            "schema": "artgen-report/1",
+            "schema": SCHEMA,
             "asset": self.asset,
+            "format": self.format,
             "ok": self.ok,
-            "findings": [vars(finding) for finding in self.findings],
-            "skipped": [vars(skipped) for skipped in self.skipped],
+            "judged": list(self.judged),
+            "findings": [plain(finding) for finding in self.findings],
+            "skipped": [plain(skipped) for skipped in self.skipped],
         }
 
 
-@dataclass(frozen=True, kw_only=True)
-class Level(Generic[Subject]):
-    """Checks that rely on the same things; run only when every level in `needs` found nothing."""
+def report_from_json(stated: Mapping[str, object]) -> Report:
+    """The report that `as_json` told; the inverse of it.
 
-    name: str
-    needs: tuple[str, ...]
-    checks: tuple[Callable[[Subject], Iterable[Finding | Skipped]], ...]
-
-
-def run_levels(asset: str, subject: Subject, levels: Iterable[Level[Subject]]) -> Report:
-    """Run the levels in order and collect everything they say."""
-    findings: list[Finding] = []
-    skipped: list[Skipped] = []
-    failed: set[str] = set()
-    for level in levels:
-        if blockers := [name for name in level.needs if name in failed]:
-            reason = f"relies on {' and '.join(blockers)}, which did not pass"
-            skipped.append(Skipped(name=level.name, reason=reason))
-            failed.add(level.name)
-            continue
-        said = [item for check in level.checks for item in check(subject)]
-        found = [item for item in said if isinstance(item, Finding)]
-        skipped += [item for item in said if isinstance(item, Skipped)]
-        findings += found
-        if found:
-            failed.add(level.name)
-    return Report(asset=asset, findings=tuple(findings), skipped=tuple(skipped))
+    Raises:
+        KeyError, TypeError, ValueError: the data is no report of this schema.
+    """
+    if stated["schema"] != SCHEMA:
+        raise ValueError(f"schema {stated['schema']!r} instead of {SCHEMA!r}")
+    rows = {key: list(stated[key]) for key in ("findings", "skipped", "judged")}  # type: ignore[call-overload]
+    return Report(
+        asset=str(stated["asset"]),
+        format=str(stated["format"]),
+        judged=tuple(rows["judged"]),
+        findings=tuple(Finding(**row) for row in rows["findings"]),
+        skipped=tuple(Skipped(**row) for row in rows["skipped"]),
+    )

@@ -1,6 +1,6 @@
 """L5: the object is what its category says: parts in order, closed at rest, of real size."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from artgen.core.errors import RuleError
 from artgen.core.mesh import Floats
 from artgen.geometry.clearance import Mover, overlaps
 from artgen.rules import Band, load_rule
-from artgen.validate import bounds
+from artgen.validate.bundle_subject import BundleSubject
 from artgen.validate.report import Finding, Skipped
 from artgen.validate.subject import Subject
 from artgen.validate.sweep import Sweep, sweep_poses
@@ -21,32 +21,40 @@ PUSHES = (0.01, 0.02, 0.04, 0.08, 0.15)
 
 def order(subject: Subject) -> Iterator[Finding]:
     """Parts stand in canonical order: low to high, front to back, left to right."""
-    parts = subject.bundle.parts
+    parts = subject.parts
     expected = canonical_order([subject.meshes[part.name].bounds for part in parts])
     for place, index in enumerate(expected):
         if place != index:
-            yield _order_finding(
-                "semantics.order", parts[index].name, f"place {index}", f"place {place}"
+            yield _finding(
+                "semantics.order",
+                parts[index].name,
+                f"place {index}",
+                f"place {place}",
+                "training targets follow this order",
+                "canonicalize before finishing",
             )
 
 
-def _order_finding(check: str, part: str, value: str, bound: str) -> Finding:
-    message = "training targets follow this order; canonicalize before finishing"
-    return Finding(check=check, part=part, value=value, bound=bound, message=message)
+def _finding(
+    check: str, part: str, value: float | str, bound: str, cause: str, remedy: str
+) -> Finding:
+    return Finding(check=check, part=part, value=value, bound=bound, cause=cause, remedy=remedy)
 
 
 def ground(subject: Subject) -> Iterator[Finding]:
     """The object stands on z = 0, centered in x and y."""
     lower, upper = object_bounds(subject)
     middle = (lower + upper) / 2.0
+    allowed = subject.bounds.ground.value
     for axis, value in (("x", middle[0]), ("y", middle[1]), ("z", lower[2])):
-        if abs(value) > bounds.GROUND.value:
-            yield Finding(
-                check="semantics.ground",
-                part="object",
-                value=float(value),
-                bound=f"0 within {bounds.GROUND.value:g} m along {axis}",
-                message="cameras and simulators expect it there; canonicalize before finishing",
+        if abs(value) > allowed:
+            yield _finding(
+                "semantics.ground",
+                "object",
+                float(value),
+                f"0 within {allowed:g} m along {axis}",
+                "cameras and simulators expect it there",
+                "canonicalize before finishing",
             )
 
 
@@ -56,7 +64,7 @@ def object_bounds(subject: Subject) -> Floats:
     return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
 
-def bands(subject: Subject) -> Iterator[Finding | Skipped]:
+def bands(subject: BundleSubject) -> Iterator[Finding | Skipped]:
     """Width, depth, height and mass lie in the category's bands."""
     category = subject.bundle.category
     try:
@@ -77,12 +85,13 @@ def band_findings(
     for name, band in allowed.items():
         if found[name] not in band:
             unit = "kg" if name == "mass" else "m"
-            yield Finding(
-                check=f"semantics.{name}",
-                part="object",
-                value=found[name],
-                bound=f"{band.lower:g} to {band.upper:g} {unit}",
-                message=f"outside [band.{name}] of {file}; narrow the ranges that it follows from",
+            yield _finding(
+                f"semantics.{name}",
+                "object",
+                found[name],
+                f"{band.lower:g} to {band.upper:g} {unit}",
+                f"outside [band.{name}] of {file}",
+                "narrow the ranges that it follows from",
             )
 
 
@@ -92,24 +101,32 @@ def closed_at_rest(subject: Subject) -> Iterator[Finding]:
 
     Nearer in the mean over its volume, so that a handle that enters an opening does not count.
     """
-    for joint in subject.bundle.joints:
+    bounds = subject.bounds
+    for joint in subject.joints:
         if joint.limit is None or joint.mimic is not None:
             continue
+        if joint.parent not in subject.shapes or joint.child not in subject.shapes:
+            continue  # Told where the mesh level lists parts without a mesh.
         reach = joint.limit.upper - joint.limit.lower
         states = tuple({joint.name: joint.limit.lower - share * reach} for share in PUSHES)
         pair = _pair_movers(subject, joint, Sweep(joint=joint.name, states=({}, *states)))
         distance = distances(*pair)
         play = distance[0] - distance
-        closer = np.flatnonzero(play > bounds.CLOSED_PLAY.value)
-        if len(closer) and not any(_crosses(pair, pose) for pose in range(1, closer[0] + 1)):
-            yield Finding(
-                check="semantics.closed",
-                part=joint.child,
-                value=float(play[closer[0]]),
-                bound=bounds.CLOSED_PLAY.at_most(),
-                message=f"pushed {PUSHES[closer[0] - 1]:.0%} of its range beyond rest it still "
-                f"moves freely toward {joint.parent}; state the joint from the closed end",
-            )
+        closer = np.flatnonzero(play > bounds.closed_play.value)
+        if not len(closer) or _crosses(pair, range(1, closer[0] + 1), bounds.overlap.value):
+            continue
+        push = closer[0] - 1
+        yield Finding(
+            check="semantics.closed",
+            part=joint.child,
+            joint=joint.name,
+            state=states[push],
+            value=float(play[closer[0]]),
+            bound=bounds.closed_play.at_most(),
+            cause=f"pushed {PUSHES[push]:.0%} of its range beyond rest it still "
+            f"moves freely toward {joint.parent}",
+            remedy="state the joint from the closed end",
+        )
 
 
 def distances(parent: Mover, child: Mover) -> Floats:
@@ -125,41 +142,60 @@ def distances(parent: Mover, child: Mover) -> Floats:
 
 def _pair_movers(subject: Subject, joint: Joint, sweep: Sweep) -> list[Mover]:
     """Parent and child of a joint with their poses over a sweep."""
-    bundle = subject.bundle
-    poses = sweep_poses(bundle.parts[0].name, bundle.joints, sweep)
+    poses = sweep_poses(subject.parts[0].name, subject.joints, sweep)
     return [
         Mover(name=name, shape=subject.shapes[name], poses=poses[name])
         for name in (joint.parent, joint.child)
     ]
 
 
-def _crosses(pair: list[Mover], pose: int) -> bool:
-    """Whether two movers overlap at one of their poses."""
-    at = [Mover(name=m.name, shape=m.shape, poses=m.poses[pose : pose + 1]) for m in pair]
-    return any(overlap.volume > bounds.OVERLAP.value for overlap in overlaps(at))
+def _crosses(pair: list[Mover], poses: Iterable[int], allowed: float) -> bool:
+    """Whether two movers overlap at one of some poses; the first one decides most often."""
+    for pose in poses:
+        at = [Mover(name=m.name, shape=m.shape, poses=m.poses[pose : pose + 1]) for m in pair]
+        if any(overlap.volume > allowed for overlap in overlaps(at)):
+            return True
+    return False
 
 
 def hinges(subject: Subject) -> Iterator[Finding]:
     """A hinge's axis lies on an edge of its part's box; a slide is no longer than its part."""
-    for joint in subject.bundle.joints:
+    bounds = subject.bounds
+    for joint in subject.joints:
+        if joint.child not in subject.meshes:
+            continue  # Told where the mesh level lists parts without a mesh.
         box = subject.meshes[joint.child].bounds
         if joint.type == "prismatic" and joint.limit is not None:
             length = float(np.abs(joint.axis) @ np.diff(box, axis=0)[0])
             share = (joint.limit.upper - joint.limit.lower) / length
-            if share > bounds.TRAVEL.value:
-                message = "it would leave its rails; shorten the travel"
+            if share > bounds.travel.value:
+                cause, remedy = "it would leave its rails", "shorten the travel"
                 yield _hinge_finding(
-                    "semantics.travel", joint, share, bounds.TRAVEL.at_most(), message
+                    "semantics.travel", joint, share, bounds.travel.at_most(), cause, remedy
                 )
         elif joint.type == "revolute":
             distance = edge_distance(box, np.array(joint.axis), np.array(joint.origin))
             diagonal = float(np.linalg.norm(np.diff(box, axis=0)))
-            allowed = bounds.HINGE_SHARE.value * diagonal + bounds.HINGE_SLACK.value
+            allowed = bounds.hinge_share.value * diagonal + bounds.hinge_slack.value
             if distance is not None and distance > allowed:
-                message = "the pivot lies off the part's edge; check the joint's origin"
+                cause, remedy = "the pivot lies off the part's edge", "check the joint's origin"
                 yield _hinge_finding(
-                    "semantics.hinge", joint, distance, f"<= {allowed:.4g} m", message
+                    "semantics.hinge", joint, distance, f"<= {allowed:.4g} m", cause, remedy
                 )
+
+
+def _hinge_finding(
+    check: str, joint: Joint, value: float, bound: str, cause: str, remedy: str
+) -> Finding:
+    return Finding(
+        check=check,
+        part=joint.name,
+        joint=joint.name,
+        value=value,
+        bound=bound,
+        cause=cause,
+        remedy=remedy,
+    )
 
 
 def edge_distance(box: Floats, axis: Floats, origin: Floats) -> float | None:
@@ -170,7 +206,3 @@ def edge_distance(box: Floats, axis: Floats, origin: Floats) -> float | None:
     others = [k for k in range(3) if k != along]
     gaps = np.abs(box[:, others] - origin[others]).min(axis=0)
     return float(np.linalg.norm(gaps))
-
-
-def _hinge_finding(check: str, joint: Joint, value: float, bound: str, message: str) -> Finding:
-    return Finding(check=check, part=joint.name, value=value, bound=bound, message=message)

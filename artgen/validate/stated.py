@@ -3,17 +3,23 @@
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from artgen.core.mesh import Floats
 
+UNMOVED = ("fixed", "floating", "planar")
+"""URDF types without one axis of motion."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class StatedJoint:
-    """One joint in one file; numbers that are missing or unreadable are nan."""
+    """One joint in one file; numbers that are missing or unreadable are nan.
+
+    Effort, velocity, friction and damping are None where the format may leave them out and does.
+    """
 
     file: str
     name: str
@@ -24,10 +30,10 @@ class StatedJoint:
     origin: tuple[float, ...]
     lower: float
     upper: float
-    friction: float
-    damping: float
-    effort: float
-    velocity: float
+    friction: float | None
+    damping: float | None
+    effort: float | None
+    velocity: float | None
 
     @property
     def label(self) -> str:
@@ -37,7 +43,12 @@ class StatedJoint:
     @property
     def limited(self) -> bool:
         """Whether its type has limits."""
-        return self.type != "continuous"
+        return self.type not in ("continuous", *UNMOVED)
+
+    @property
+    def moves(self) -> bool:
+        """Whether it has an axis that parts move along or about."""
+        return self.type not in UNMOVED
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -127,6 +138,35 @@ def _urdf_joint(file: str, element: ET.Element) -> StatedJoint:
         effort=number(words("limit", "effort")),
         velocity=number(words("limit", "velocity")),
     )
+
+
+def foreign_urdf_joints(file: str, robot: ET.Element) -> list[StatedJoint]:
+    """Every `<joint>`, with the defaults of the URDF specification for what a joint leaves out."""
+    return [
+        _with_defaults(_urdf_joint(file, element), element) for element in robot.iterfind("joint")
+    ]
+
+
+def _with_defaults(joint: StatedJoint, element: ET.Element) -> StatedJoint:
+    left_out = {
+        key: value
+        for path, word, key, value in URDF_DEFAULTS
+        if (found := element.find(path)) is None or word not in found.attrib
+        if key not in ("effort", "velocity") or joint.type == "continuous" or not joint.moves
+    }
+    return replace(joint, **left_out)  # type: ignore[arg-type]
+
+
+URDF_DEFAULTS = (
+    ("axis", "xyz", "axis", (1.0, 0.0, 0.0)),
+    ("origin", "xyz", "origin", (0.0, 0.0, 0.0)),
+    ("dynamics", "friction", "friction", None),
+    ("dynamics", "damping", "damping", None),
+    ("limit", "effort", "effort", None),
+    ("limit", "velocity", "velocity", None),
+)
+"""Element, attribute, field and what the specification puts there; limits are asked of joints that
+have a stop."""
 
 
 def manifest_joints(file: str, manifest: Mapping[str, Any]) -> list[StatedJoint]:

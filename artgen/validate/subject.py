@@ -1,80 +1,147 @@
-"""What the checks look at: a bundle's files, each read once and when first needed."""
+"""The asset under test, whatever it was read from: parts, joints, meshes, compiled models."""
 
-import json
-import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
 
-from artgen.core.errors import ArtgenError, GeometryError
+from artgen.articulation.types import Joint, Mass, Precondition
 from artgen.core.mesh import Floats, TriMesh
-from artgen.export.bundle import Bundle, read_bundle
-from artgen.export.layout import MANIFEST, MJCF, URDF
 from artgen.geometry.clearance import Shape, shape_of_mesh
-from artgen.validate.objfile import read_triangles
-from artgen.validate.physics import compiled
+from artgen.validate.bounds import Bounds
+from artgen.validate.stated import StatedBody, StatedJoint
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """Where an asset lies.
+
+    Attributes:
+        format: bundle, urdf, mjcf or usd.
+        file: the file to read; the folder of a bundle.
+        root: the folder outside of which nothing may be read.
+    """
+
+    format: str
+    file: Path
+    root: Path
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Subject:
-    """One bundle under test; properties raise what reading raises, checks of the first levels turn
-    that into findings."""
+class SubjectPart:
+    """A rigid part; `mass` is in the object frame at rest, None where the source states none."""
 
-    folder: Path
+    name: str
+    label: str
+    mass: Mass | None
+    densities: tuple[float, ...] | None = None
 
-    @cached_property
-    def manifest(self) -> Mapping[str, Any]:
-        """The manifest as it stands."""
-        data: Mapping[str, Any] = json.loads((self.folder / MANIFEST).read_text(encoding="utf-8"))
-        return data
 
-    @cached_property
-    def urdf(self) -> ET.Element:
-        """The URDF's root element."""
-        return ET.parse(self.folder / URDF).getroot()
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Link:
+    """A body of a file: the part it belongs to, and its frame (4, 4) at rest in the object frame.
 
-    @cached_property
-    def mjcf(self) -> ET.Element:
-        """The MJCF's root element."""
-        return ET.parse(self.folder / MJCF).getroot()
+    Several links make one part where fixed joints connect them.
+    """
 
-    @cached_property
-    def bundle(self) -> Bundle:
-        """The manifest as typed values."""
-        return read_bundle(self.folder)
+    part: str
+    object_from_link: Floats
 
-    @cached_property
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Subject(ABC):
+    """One asset under test; each file is read once and when first needed.
+
+    Properties raise what reading raises; the checks of the first levels turn that into findings.
+    """
+
+    source: Source
+    bounds: Bounds
+
+    @property
+    def format(self) -> str:
+        """bundle, urdf, mjcf or usd."""
+        return self.source.format
+
+    @property
+    @abstractmethod
+    def name(self) -> str:
+        """Name of the asset."""
+
+    @abstractmethod
+    def lacks(self, need: str) -> str | None:
+        """Why the source cannot say what a check needs, or None where it can."""
+
+    @abstractmethod
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Files that cannot be read, and why."""
+
+    @property
+    @abstractmethod
+    def stated_links(self) -> Mapping[str, list[str]]:
+        """File to the names of its links, as they stand."""
+
+    @property
+    @abstractmethod
+    def stated_joints(self) -> list[StatedJoint]:
+        """Joints as the files state them."""
+
+    @property
+    @abstractmethod
+    def stated_bodies(self) -> list[StatedBody]:
+        """Mass properties as the files state them."""
+
+    @property
+    @abstractmethod
+    def parts(self) -> tuple[SubjectPart, ...]:
+        """Rigid parts, the base first."""
+
+    @property
+    @abstractmethod
+    def joints(self) -> tuple[Joint, ...]:
+        """Moving joints in the object frame at rest, parents before children."""
+
+    @property
+    @abstractmethod
+    def preconditions(self) -> tuple[Precondition, ...]:
+        """Joints that may move only while others are open."""
+
+    @property
+    @abstractmethod
+    def links(self) -> Mapping[str, Link]:
+        """Body name to its part and frame, for every body of the compiled models."""
+
+    @property
+    @abstractmethod
     def mesh_files(self) -> Mapping[str, TriMesh | str]:
-        """Path to the visual mesh there, or to what keeps it from being read."""
-        return {part.mesh: self._read(part.mesh) for part in self.bundle.parts}
+        """Label of each visual mesh to its triangles, or to what keeps them from being read."""
 
-    def _read(self, path: str) -> TriMesh | str:
-        try:
-            return read_triangles(self.folder / path)
-        except (GeometryError, OSError) as error:
-            return str(error)
-
-    @cached_property
+    @property
+    @abstractmethod
     def meshes(self) -> Mapping[str, TriMesh]:
-        """Part name to its visual mesh, in the order of the manifest."""
-        read = {part.name: self.mesh_files[part.mesh] for part in self.bundle.parts}
-        return {name: mesh for name, mesh in read.items() if isinstance(mesh, TriMesh)}
+        """Part name to its visual mesh at rest; parts without one are not named."""
 
-    @cached_property
+    @property
+    @abstractmethod
     def collision_files(self) -> Mapping[str, tuple[TriMesh, ...] | str]:
-        """Part name to its collision pieces, or to what keeps them from being read."""
-        return {part.name: self._read_collision(part.name) for part in self.bundle.parts}
+        """Part name to its collision pieces at rest, or to what keeps them from being read."""
 
-    def _read_collision(self, part: str) -> tuple[TriMesh, ...] | str:
-        try:
-            return self.bundle.load_collision(part)
-        except (ArtgenError, OSError, ValueError, IndexError) as error:
-            return str(error)
+    @property
+    @abstractmethod
+    def model_files(self) -> tuple[str, ...]:
+        """Files that MuJoCo compiles; dynamics uses the first."""
+
+    @abstractmethod
+    def spec(self, file: str) -> mujoco.MjSpec:
+        """What MuJoCo reads from a file; ValueError where it refuses."""
+
+    @abstractmethod
+    def model(self, file: str) -> mujoco.MjModel:
+        """What MuJoCo makes of a file; ValueError where it refuses."""
 
     @cached_property
     def collision(self) -> Mapping[str, tuple[TriMesh, ...]]:
@@ -92,16 +159,10 @@ class Subject:
         """Part name to the (B,) signed volumes of its bodies, m3."""
         return {name: body_volumes(mesh) for name, mesh in self.meshes.items()}
 
-    @cached_property
-    def models(self) -> dict[str, mujoco.MjModel]:
-        """Compiled models by file, filled as `model` is asked."""
-        return {}
-
-    def model(self, file: str) -> mujoco.MjModel:
-        """What MuJoCo makes of the MJCF or URDF; ValueError where it refuses."""
-        if file not in self.models:
-            self.models[file] = compiled(self.folder / file)
-        return self.models[file]
+    @property
+    def simulated(self) -> mujoco.MjModel:
+        """The model that motion and dynamics are judged by."""
+        return self.model(self.model_files[0])
 
 
 def body_volumes(mesh: TriMesh) -> Floats:

@@ -78,7 +78,9 @@ def test_an_asset_that_fails_is_set_aside_with_its_report_and_comes_back_when_it
 ) -> None:
     folder = RunFolder(tmp_path)
     tools = Toolbox(folder, "test")
-    finding = Finding(check="x.y", part="door", value=1.0, bound="<= 0", message="planted")
+    finding = Finding(
+        check="x.y", part="door", value=1.0, bound="<= 0", cause="planted", remedy="weed"
+    )
     valid = pipeline.validate_bundle
     with tools.blender:
         monkeypatch.setattr(

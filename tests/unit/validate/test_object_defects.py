@@ -223,7 +223,7 @@ DEFECTS: dict[str, tuple[str, str, Callable[[], ArticulatedObject]]] = {
         "slide",
         lambda: cupboard(slide=slide(limit=Limit(lower=0.0, upper=0.5))),
     ),
-    "flap falls open": ("motion.settle", "hinge", lambda: cupboard(hinge=FLAP)),
+    "flap falls open": ("dynamics.settle", "hinge", lambda: cupboard(hinge=FLAP)),
     "millimeters read as meters": ("mesh.size", "base", lambda: scaled(cupboard(), 1000.0)),
     "meters read as millimeters": ("mesh.size", "base", lambda: scaled(cupboard(), 0.001)),
     "grams read as kilograms": (
@@ -272,7 +272,7 @@ def test_a_precondition_that_opens_too_little_is_found(tmp_path: Path) -> None:
     report = validate_bundle(write_quick_bundle(obj, tmp_path / "bundle"))
     overlaps = [f for f in report.findings if f.check == "motion.overlap"]
     assert [f.part for f in overlaps] == ["door, drawer"]
-    assert "with hinge = 0.3491" in overlaps[0].message
+    assert "with hinge = 0.3491" in overlaps[0].cause
 
 
 def test_an_inset_drawer_with_a_handle_is_closed(tmp_path: Path) -> None:
@@ -292,7 +292,7 @@ def test_bands_name_the_measure_and_the_rule() -> None:
     allowed = {"width": Band(0.3, 0.5), "mass": Band(1.0, 2.0)}
     (finding,) = band_findings("rules/x.toml", {"width": 0.51, "mass": 2.0}, allowed)
     assert (finding.check, finding.value) == ("semantics.width", 0.51)
-    assert "[band.width] of rules/x.toml" in finding.message
+    assert "[band.width] of rules/x.toml" in finding.cause
 
 
 def test_an_overlap_is_measured_exactly(tmp_path: Path) -> None:

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from artgen.export.layout import MJCF, URDF
+from artgen.validate.bounds import shipped_bounds
+from artgen.validate.dynamics import drift_bound
 from artgen.validate.physics import body_names, compiled, set_state
-from artgen.validate.simulate import drift_bound
 from tests.unit.validate.cabinet import cupboard, write_quick_bundle
 
 TETRA = "v 0 0 0\nv {s} 0 0\nv 0 {s} 0\nv 0 0 {s}\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -93,7 +94,7 @@ def test_the_drift_bound_holds_what_friction_holds(pull: float) -> None:
         model = mujoco.MjModel.from_xml_string(text.format(g=pull, f=friction))
         data = mujoco.MjData(model)
         mujoco.mj_forward(model, data)
-        bound = drift_bound(model, data)[0]
+        bound = drift_bound(model, data, shipped_bounds())[0]
         mujoco.mj_step(model, data, nstep=round(2.0 / model.opt.timestep))
         assert (abs(data.qpos[0]) <= bound) == held
         assert abs(data.qpos[0]) > bound / 100.0
@@ -108,6 +109,6 @@ def test_the_drift_bound_holds_what_a_stop_holds() -> None:
     )
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    bound = drift_bound(model, data)[0]
+    bound = drift_bound(model, data, shipped_bounds())[0]
     mujoco.mj_step(model, data, nstep=1000)
     assert bound / 10.0 < abs(data.qpos[0]) <= bound
