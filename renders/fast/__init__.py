@@ -1,0 +1,1 @@
+"""The fast backend: pictures by a software rasterizer on albedo and image-based light."""

@@ -1,0 +1,51 @@
+"""The fast backend: the images of a plan without Blender."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from artgen.imaging import Singles
+from renders.fast.context import open_context
+from renders.fast.filtered import Blur
+from renders.fast.light import shine
+from renders.fast.rasterizer import Canvases, Programs, Rasterizer
+from renders.glb import read_appearance
+from renders.plan import RenderPlan
+
+SHADING = "fast/1"
+"""The number rises with every change of the shading model that pixels show."""
+
+
+class FastBackend:
+    """Draws by software OpenGL; one context serves asset after asset."""
+
+    shading = SHADING
+
+    def __init__(self, *, threads: int = 1) -> None:
+        self._context = open_context(threads)
+        self._programs = Programs(self._context)
+        self._canvases = Canvases(self._context)
+        self._blur = Blur()
+
+    def images(self, plan: RenderPlan, folder: Path) -> Sequence[Singles]:
+        """For each shot (h, w, 4) float32 of its window, linear RGB premultiplied by alpha.
+
+        Raises:
+            RenderError: the GLB cannot be read, or the rig has too many lights.
+        """
+        rasterizer = Rasterizer(
+            self._context,
+            self._programs,
+            self._canvases,
+            appearance=read_appearance(Path(plan.job.glb)),
+            surfaces={surface.name: surface for surface in plan.bundle.surfaces},
+            light=shine(plan.job.rig, self._blur),
+        )
+        try:
+            return [
+                rasterizer.draw(
+                    plan.cameras[shot.camera], shot.box, plan.poses[shot.state], shot.part
+                )
+                for shot in plan.passes.shots
+            ]
+        finally:
+            rasterizer.close()

@@ -1,0 +1,37 @@
+"""An OpenGL context without a display, on Mesa's software rasterizer."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import moderngl
+
+from artgen.core.errors import UsageError
+
+PACKAGES = ("libegl1", "libgl1-mesa-dri")
+"""Debian's packages of what the context needs."""
+CONTEXT: dict[str, Any] = {"require": 330, "standalone": True, "backend": "egl"}
+VENDOR = Path("/usr/share/glvnd/egl_vendor.d/50_mesa.json")
+
+
+def open_context(threads: int) -> moderngl.Context:
+    """A context of this process; equal input gives equal pixels for any number of threads.
+
+    A graphics card would round otherwise than the next one, so software is asked for even where
+    there is one.
+
+    Raises:
+        UsageError: EGL or its software driver is missing.
+    """
+    os.environ["LIBGL_ALWAYS_SOFTWARE"] = "true"
+    os.environ["LP_NUM_THREADS"] = str(threads)
+    if VENDOR.exists():
+        os.environ["__EGL_VENDOR_LIBRARY_FILENAMES"] = str(VENDOR)
+    try:
+        context = moderngl.create_context(**CONTEXT)
+    except Exception as error:  # moderngl and its loader raise bare Exception
+        raise UsageError(
+            f"the fast backend needs OpenGL through EGL, which this machine lacks ({error}); "
+            f"sudo apt-get install -y {' '.join(PACKAGES)}   (or, as root, artgen doctor --mend)"
+        ) from error
+    return context

@@ -1,0 +1,307 @@
+"""One asset on the rasterizer: uploaded once, then drawn shot by shot."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+
+from artgen.core.camera import Camera
+from artgen.core.mesh import Floats
+from artgen.core.surface import SurfaceSpec
+from artgen.core.transform import apply
+from artgen.imaging import Singles
+from artgen.transport import CLEAR
+from renders.fast.light import Shine
+from renders.fast.shaders import DEFINES, MOST_LIGHTS, OPAQUE, PANE, VERTEX
+from renders.glb import Appearance, Look, Skin
+
+Box = tuple[int, int, int, int]
+Owned = moderngl.Buffer | moderngl.Texture | moderngl.TextureArray | moderngl.VertexArray
+SAMPLES = 4
+"""Coverage samples a pixel; color is computed once a pixel and triangle."""
+TILE = 64
+"""px; images are drawn on canvases of whole tiles, so that few canvases serve all windows."""
+SRGB8 = 0x8C41
+"""GL_SRGB8: the texture unit makes linear light of it, before it interpolates."""
+THROUGH = (moderngl.ONE, 0x88F9, moderngl.ZERO, 0x8589)
+"""Dual-source blending (GL_SRC1_COLOR, GL_SRC1_ALPHA): color = light + passed * color; the fourth
+channel holds transparency, which panes multiply."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Piece:
+    """A skin on the rasterizer.
+
+    Attributes:
+        corners: (8, 3) of its box, object frame at rest, m.
+    """
+
+    skin: Skin
+    surface: SurfaceSpec
+    program: moderngl.Program
+    array: moderngl.VertexArray
+    images: tuple[moderngl.Texture, ...]
+    corners: Floats
+
+    @property
+    def is_pane(self) -> bool:
+        """True where light passes."""
+        return self.surface.transmission > CLEAR
+
+
+class Canvases:
+    """Antialiased canvases by size, and what they resolve to."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._made: dict[tuple[int, int], tuple[moderngl.Framebuffer, moderngl.Framebuffer]] = {}
+
+    def of(self, size: tuple[int, int]) -> tuple[moderngl.Framebuffer, moderngl.Framebuffer]:
+        """The canvas that holds (width, height) px, and its resolved twin."""
+        wide, high = (TILE * -(-side // TILE) for side in size)
+        if (wide, high) not in self._made:
+            gl = self._context
+            drawn = gl.framebuffer(
+                gl.renderbuffer((wide, high), 4, samples=SAMPLES, dtype="f2"),
+                gl.depth_renderbuffer((wide, high), samples=SAMPLES),
+            )
+            resolved = gl.framebuffer(gl.renderbuffer((wide, high), 4, dtype="f2"))
+            self._made[wide, high] = drawn, resolved
+        return self._made[wide, high]
+
+
+class Programs:
+    """Shaders by the images they read, compiled when first needed."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._made: dict[tuple[str, ...], moderngl.Program] = {}
+
+    def opaque(self, kinds: Sequence[str]) -> moderngl.Program:
+        """For a surface with images of these kinds."""
+        return self._program(OPAQUE, tuple(DEFINES[kind] for kind in kinds))
+
+    def pane(self) -> moderngl.Program:
+        """For thin glass."""
+        return self._program(PANE, ("PANE",))
+
+    def _program(self, source: str, names: tuple[str, ...]) -> moderngl.Program:
+        if names not in self._made:
+            head, _, body = source.lstrip().partition("\n")
+            defines = "".join(f"#define {name}\n" for name in names)
+            self._made[names] = self._context.program(
+                vertex_shader=VERTEX.lstrip(), fragment_shader=f"{head}\n{defines}{body}"
+            )
+        return self._made[names]
+
+
+class Rasterizer:
+    """One asset under one rig; close it to free what it uploaded."""
+
+    def __init__(
+        self,
+        context: moderngl.Context,
+        programs: Programs,
+        canvases: Canvases,
+        *,
+        appearance: Appearance,
+        surfaces: Mapping[str, SurfaceSpec],
+        light: Shine,
+    ) -> None:
+        self._context, self._canvases, self._programs = context, canvases, programs
+        self._owned: list[Owned] = []
+        self._textures: dict[tuple[str, str], moderngl.Texture] = {}
+        self._pieces = [
+            self._piece(skin, surfaces[skin.surface], appearance.looks[skin.surface])
+            for skin in appearance.skins
+        ]
+        self._mirrored = self._surroundings(light)
+        for program in {piece.program for piece in self._pieces}:
+            _light(program, light)
+
+    def close(self) -> None:
+        """Free buffers and textures."""
+        for item in self._owned:
+            item.release()
+
+    def draw(
+        self, camera: Camera, box: Box, poses: Mapping[str, Floats], part: str | None
+    ) -> Singles:
+        """(h, w, 4) linear, premultiplied: the window `box` of what `camera` sees."""
+        size = (box[2] - box[0], box[3] - box[1])
+        drawn, resolved = self._canvases.of(size)
+        shown = [piece for piece in self._pieces if part in (None, piece.skin.part)]
+        gl = self._context
+        drawn.use()
+        gl.viewport = (0, 0, *size)
+        drawn.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
+        gl.front_face = "cw"  # rows run downward, so triangles turn the other way
+        gl.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
+        self._mirrored.use(0)
+        clip = clip_from_world(camera, box, _reach(shown, camera, poses))
+        for program in {piece.program for piece in shown}:
+            program["eye"] = tuple(camera.position)
+        gl.cull_face = "back"
+        for piece in shown:
+            if not piece.is_pane:
+                self._draw(piece, clip, poses[piece.skin.part])
+        self._blend([piece for piece in shown if piece.is_pane], camera, clip, poses)
+        gl.copy_framebuffer(resolved, drawn)
+        raw = resolved.read(viewport=(0, 0, *size), components=4, dtype="f4")
+        image = np.frombuffer(raw, np.float32).reshape(size[1], size[0], 4).copy()
+        image[..., 3] = 1.0 - image[..., 3]
+        return image
+
+    def _blend(
+        self,
+        panes: Sequence[Piece],
+        camera: Camera,
+        clip: Floats,
+        poses: Mapping[str, Floats],
+    ) -> None:
+        """Panes over what is behind them, far to near; the far face of each before its near one."""
+        gl = self._context
+        gl.enable(moderngl.BLEND)
+        gl.blend_func = THROUGH  # type: ignore[assignment]  # the stub knows two of the four
+        drawn = gl.fbo
+        drawn.depth_mask = False
+
+        def distance(piece: Piece) -> float:
+            middle = apply(poses[piece.skin.part], piece.corners.mean(axis=0))
+            return float(apply(camera.camera_from_world, middle)[2])
+
+        for piece in sorted(panes, key=distance, reverse=True):
+            for side in ("front", "back"):
+                gl.cull_face = side
+                self._draw(piece, clip, poses[piece.skin.part])
+        drawn.depth_mask = True
+
+    def _draw(self, piece: Piece, clip: Floats, pose: Floats) -> None:
+        program, surface = piece.program, piece.surface
+        _write(program, "clip_from_rest", (clip @ pose).T)
+        _write(program, "object_from_rest", pose.T)
+        for key, value in _numbers(surface, piece.is_pane).items():
+            if key in program:
+                program[key] = value
+        for unit, texture in enumerate(piece.images, start=1):
+            texture.use(unit)
+        piece.array.render()
+
+    def _piece(self, skin: Skin, surface: SurfaceSpec, look: Look) -> Piece:
+        pane = surface.transmission > CLEAR
+        kinds = [] if pane else [kind for kind in DEFINES if getattr(look, kind) is not None]
+        program = self._programs.pane() if pane else self._programs.opaque(kinds)
+        for unit, kind in enumerate(kinds, start=1):
+            program[f"{kind}_image"] = unit
+        rows = np.concatenate([skin.vertices, skin.normals, skin.uv], axis=1).astype("f4")
+        gl = self._context
+        vertices, indices = gl.buffer(rows.tobytes()), gl.buffer(skin.faces.tobytes())
+        layout = [("3f", "in_position"), ("3f", "in_normal"), ("2f", "in_uv")]
+        used = [name if name in program else None for _, name in layout]
+        form = " ".join(
+            kind if name else kind.replace("f", "x4")
+            for (kind, _), name in zip(layout, used, strict=True)
+        )
+        array = gl.vertex_array(
+            program, [(vertices, form, *(name for name in used if name))], indices
+        )
+        self._owned += [array, vertices, indices]
+        low, high = skin.vertices.min(axis=0), skin.vertices.max(axis=0)
+        corners = np.stack(np.meshgrid(*np.stack([low, high], axis=1)), axis=-1).reshape(8, 3)
+        return Piece(
+            skin=skin,
+            surface=surface,
+            program=program,
+            array=array,
+            images=tuple(self._texture(surface.name, kind, look) for kind in kinds),
+            corners=corners,
+        )
+
+    def _texture(self, surface: str, kind: str, look: Look) -> moderngl.Texture:
+        if (surface, kind) not in self._textures:
+            pixels = getattr(look, kind)
+            light = SRGB8 if kind in ("color", "emission") else None
+            texture = self._context.texture(
+                pixels.shape[1::-1], 3, pixels.tobytes(), alignment=1, internal_format=light
+            )
+            texture.build_mipmaps()
+            texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+            self._owned.append(texture)
+            self._textures[surface, kind] = texture
+        return self._textures[surface, kind]
+
+    def _surroundings(self, light: Shine) -> moderngl.TextureArray:
+        layers, height, width, _ = light.mirrored.shape
+        texture = self._context.texture_array(
+            (width, height, layers), 3, light.mirrored.tobytes(), dtype="f4"
+        )
+        texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        texture.repeat_y = False
+        self._owned.append(texture)
+        return texture
+
+
+def clip_from_world(camera: Camera, box: Box, reach: tuple[float, float]) -> Floats:
+    """(4, 4) projection to the window `box`, rows downward; `reach` is (near, far) m."""
+    left, top, right, bottom = box
+    width, height = right - left, bottom - top
+    near, far = reach
+    x, y = camera.center
+    projection = np.zeros((4, 4))
+    projection[0, 0], projection[0, 2] = 2 * camera.focal / width, 2 * (x - left) / width - 1
+    projection[1, 1], projection[1, 2] = 2 * camera.focal / height, 2 * (y - top) / height - 1
+    projection[2, 2], projection[2, 3] = (far + near) / (far - near), -2 * far * near / (far - near)
+    projection[3, 2] = 1.0
+    return np.asarray(projection @ camera.camera_from_world)
+
+
+def _reach(
+    pieces: Sequence[Piece], camera: Camera, poses: Mapping[str, Floats]
+) -> tuple[float, float]:
+    """Clip planes (m) around the pieces."""
+    depths = [
+        apply(camera.camera_from_world @ poses[piece.skin.part], piece.corners)[:, 2]
+        for piece in pieces
+    ]
+    nearest, farthest = float(np.min(depths)), float(np.max(depths))
+    return max(0.9 * nearest, 1e-3 * farthest), 1.1 * farthest
+
+
+def _light(program: moderngl.Program, light: Shine) -> None:
+    """Everything that stays while the rig does."""
+    _write(program, "sky", light.sky)
+    _write(program, "stage", np.array([*light.middle, light.reach]))
+    _write(program, "corners", _padded(light.corners.reshape(-1, 3), 4 * MOST_LIGHTS))
+    _write(program, "radiance", _padded(light.radiance, MOST_LIGHTS))
+    if "lights" in program:
+        program["lights"] = len(light.corners)
+    program["mirrored"] = 0
+
+
+def _padded(rows: Floats, count: int) -> Floats:
+    return np.pad(rows, ((0, count - len(rows)), (0, 0)))
+
+
+def _write(program: moderngl.Program, name: str, values: Floats) -> None:
+    """Set a uniform, unless the compiler found that the shader does not need it."""
+    uniform = program.get(name, None)
+    if isinstance(uniform, moderngl.Uniform):
+        uniform.write(np.asarray(values, "f4", order="C").tobytes())
+
+
+def _numbers(surface: SurfaceSpec, pane: bool) -> dict[str, object]:
+    if pane:
+        return {
+            "index": surface.ior,
+            "tint": surface.color,
+            "roughness": surface.roughness,
+        }
+    bent = (surface.ior - 1.0) / (surface.ior + 1.0)
+    return {
+        "color": surface.color,
+        "glow": tuple(surface.emission * c for c in surface.color),
+        "roughness": surface.roughness,
+        "metallic": surface.metallic,
+        "specular": bent * bent,
+    }

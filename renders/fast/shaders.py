@@ -1,0 +1,181 @@
+"""The shading model `fast/1` in GLSL.
+
+Diffuse: the sky by spherical harmonics, every softbox by the exact form factor of its rectangle
+(Lambert 1760; the edge integrals and the horizon by Heitz et al. 2016, the latter approximated as
+Hill 2016 does). Specular: radiance filtered by roughness, and the split sum (Karis 2013) with
+Lazarov's fit of the second factor. No shadows, no light between surfaces.
+"""
+
+MOST_LIGHTS = 16
+DEFINES = {"color": "COLOR", "orm": "ORM", "normal": "NORMAL", "emission": "EMISSION"}
+"""Kind of image to the name that compiles its lookup in."""
+
+VERTEX = """
+#version 330
+uniform mat4 clip_from_rest;
+uniform mat4 object_from_rest;
+in vec3 in_position;
+in vec3 in_normal;
+in vec2 in_uv;
+out vec3 place;
+out vec3 normal;
+out vec2 uv;
+
+void main() {
+    gl_Position = clip_from_rest * vec4(in_position, 1.0);
+    place = (object_from_rest * vec4(in_position, 1.0)).xyz;
+    normal = mat3(object_from_rest) * in_normal;
+    uv = in_uv;
+}
+"""
+
+LIGHT = """
+#version 330
+#define MOST_LIGHTS 16
+#define TAU 6.28318530718
+uniform vec3 eye;
+uniform vec3 sky[9];
+uniform int lights;
+uniform vec3 corners[4 * MOST_LIGHTS];
+uniform vec3 radiance[MOST_LIGHTS];
+uniform sampler2DArray mirrored;
+uniform vec4 stage;  // middle of the rig, and the distance of its lights
+in vec3 place;
+in vec3 normal;
+in vec2 uv;
+
+vec3 sky_on(vec3 n) {
+    return max(vec3(0.0), sky[0] + sky[1] * n.y + sky[2] * n.z + sky[3] * n.x
+        + sky[4] * n.x * n.y + sky[5] * n.y * n.z + sky[6] * (3.0 * n.z * n.z - 1.0)
+        + sky[7] * n.x * n.z + sky[8] * (n.x * n.x - n.y * n.y));
+}
+
+vec3 edge(vec3 a, vec3 b) {
+    float x = dot(a, b), y = abs(x);
+    float v = (0.8543985 + (0.4965155 + 0.0145206 * y) * y)
+        / (3.4175940 + (4.1616724 + y) * y);
+    return cross(a, b) * (x > 0.0 ? v : 0.5 * inversesqrt(max(1.0 - x * x, 1e-7)) - v);
+}
+
+float form_factor(int light, vec3 n) {
+    vec3 first = corners[4 * light] - place;
+    vec3 facing = cross(corners[4 * light + 1] - corners[4 * light],
+        corners[4 * light + 3] - corners[4 * light]);
+    vec3 a = normalize(first), b = normalize(corners[4 * light + 1] - place);
+    vec3 c = normalize(corners[4 * light + 2] - place);
+    vec3 d = normalize(corners[4 * light + 3] - place);
+    vec3 flux = edge(b, a) + edge(c, b) + edge(d, c) + edge(a, d);
+    float size = length(flux);
+    return dot(first, facing) < 0.0 ? max(0.0, (size * size + dot(flux, n)) / (size + 1.0)) : 0.0;
+}
+
+vec3 shown_by_white(vec3 n) {
+    vec3 sum = sky_on(n);
+    for (int k = 0; k < lights; ++k) sum += radiance[k] * form_factor(k, n);
+    return sum;
+}
+
+vec3 mirror(vec3 direction, float roughness) {
+    vec3 from = place - stage.xyz;
+    float along = dot(from, direction);
+    float reach = sqrt(max(0.0, along * along - dot(from, from) + stage.w * stage.w)) - along;
+    vec3 d = normalize(from + reach * direction);
+    vec2 at = vec2(atan(d.x, -d.y) / TAU + 0.5, 0.5 - 2.0 * asin(clamp(d.z, -1.0, 1.0)) / TAU);
+    float layer = roughness * float(textureSize(mirrored, 0).z - 1);
+    float low = floor(layer);
+    return mix(textureLod(mirrored, vec3(at, low), 0.0).rgb,
+        textureLod(mirrored, vec3(at, low + 1.0), 0.0).rgb, layer - low);
+}
+"""
+
+OPAQUE = (
+    LIGHT
+    + """
+uniform vec3 color;
+uniform vec3 glow;
+uniform float roughness;
+uniform float metallic;
+uniform float specular;
+#ifdef COLOR
+uniform sampler2D color_image;
+#endif
+#ifdef ORM
+uniform sampler2D orm_image;
+#endif
+#ifdef NORMAL
+uniform sampler2D normal_image;
+#endif
+#ifdef EMISSION
+uniform sampler2D emission_image;
+#endif
+out vec4 light;
+
+vec3 bent(vec3 n) {
+#ifdef NORMAL
+    vec3 along_x = dFdx(place), along_y = dFdy(place);
+    vec2 across_x = dFdx(uv), across_y = dFdy(uv);
+    vec3 other_y = cross(along_y, n), other_x = cross(n, along_x);
+    vec3 tangent = other_y * across_x.x + other_x * across_y.x;
+    vec3 bitangent = -(other_y * across_x.y + other_x * across_y.y);
+    float size = max(dot(tangent, tangent), dot(bitangent, bitangent));
+    vec3 bump = texture(normal_image, uv).xyz * (255.0 / 127.0) - 128.0 / 127.0;
+    vec3 turned = (tangent * bump.x + bitangent * bump.y) * inversesqrt(max(size, 1e-30));
+    return normalize(turned + n * bump.z);
+#else
+    return n;
+#endif
+}
+
+void main() {
+    vec3 base = color, emitted = glow;
+    float rough = roughness, metal = metallic;
+#ifdef COLOR
+    base = texture(color_image, uv).rgb;
+#endif
+#ifdef ORM
+    vec3 orm = texture(orm_image, uv).rgb;
+    rough = orm.g;
+    metal = orm.b;
+#endif
+#ifdef EMISSION
+    emitted *= texture(emission_image, uv).rgb;
+#endif
+    vec3 n = bent(normalize(normal));
+    vec3 to_eye = normalize(eye - place);
+    float facing = max(dot(n, to_eye), 1e-3);
+    vec4 fit = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float grazing = min(fit.x * fit.x, exp2(-9.28 * facing)) * fit.x + fit.y;
+    vec2 split = vec2(-1.04, 1.04) * grazing + fit.zw;
+    vec3 reflected = mix(vec3(specular), base, metal) * split.x + split.y;
+    vec3 diffuse = base * (1.0 - metal) * (1.0 - (specular * split.x + split.y));
+    vec3 sheen = mirror(reflect(-to_eye, n), rough);
+    light = vec4(diffuse * shown_by_white(n) + reflected * sheen + emitted, 0.0);
+}
+"""
+)
+
+PANE = (
+    LIGHT
+    + """
+uniform float index;
+uniform float roughness;
+uniform vec3 tint;
+layout(location = 0, index = 0) out vec4 light;
+layout(location = 0, index = 1) out vec4 passed;
+
+float fresnel(float c) {
+    float g = sqrt(index * index - 1.0 + c * c);
+    float a = (g - c) / (g + c), b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
+    return 0.5 * a * a * (1.0 + b * b);
+}
+
+void main() {
+    vec3 to_eye = normalize(eye - place), n = normalize(normal);
+    n = faceforward(n, -to_eye, n);
+    float share = fresnel(abs(dot(n, to_eye)));
+    vec3 through = tint * (1.0 - share);
+    light = vec4(share * mirror(reflect(-to_eye, n), roughness), 0.0);
+    passed = vec4(through, dot(through, vec3(1.0 / 3.0)));
+}
+"""
+)
