@@ -1,0 +1,1 @@
+"""Cases that break simulators: each holds to a derived bound, or is refused with a finding."""

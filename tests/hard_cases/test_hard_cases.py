@@ -1,0 +1,19 @@
+"""Each hard case holds to its bound, and what happens outside it is seen."""
+
+import pytest
+
+from tests.hard_cases import dynamics
+from tests.hard_cases.case import HardCase
+
+CASES = dynamics.CASES
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_the_case_holds_to_its_bound(case: HardCase) -> None:
+    assert case.error() <= case.bound
+
+
+@pytest.mark.parametrize("case", [c for c in CASES if c.seen], ids=lambda case: case.name)
+def test_what_happens_outside_is_seen(case: HardCase) -> None:
+    assert case.seen is not None
+    assert case.seen()
