@@ -10,7 +10,7 @@ OUT        ?= out
 WORKERS    ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help generate test install install-test doctor fmt lint type unit goldens gallery bench ci clean
+.PHONY: help generate test install install-test doctor fmt lint type unit goldens gallery bench hard-cases ci clean
 
 help: ## print this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "  make %-14s %s\n", $$1, $$2}'
@@ -66,6 +66,9 @@ gallery: install ## rewrite the pictures in docs/
 
 bench: install-test ## measure the figures in docs/benchmarks.md
 	$(BIN)/python -m tests.bench.figures
+
+hard-cases: install-test ## rewrite docs/hard_cases.md with fresh measurements
+	$(BIN)/python -m tests.hard_cases.write
 
 ci: test ## what CI runs
 
