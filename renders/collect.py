@@ -1,17 +1,21 @@
 """Rendered images and cast labels to a Sample."""
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 
 from artgen.articulation.kinematics import resolved
 from artgen.articulation.targets import targets
 from artgen.core.camera import Camera
-from artgen.dataset.sample import Cameras, PartLabel, Sample, SampleMeta
+from artgen.dataset.sample import Bytes, Cameras, PartLabel, Sample, SampleMeta
 from artgen.export import Bundle
 from artgen.imaging import Singles, display
+from renders.glb import read_appearance
+from renders.labels import Labels, cast_labels, poses_by_part
+from renders.paint import paints
 from renders.plan import RenderPlan
-from renders.raycast import Labels, PartCaster, cast_labels
+from renders.raycast import PartCaster
 
 
 def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> Sample:
@@ -22,18 +26,11 @@ def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> S
         shading: the shading model that made them.
 
     Raises:
-        RenderError: an image is missing, of another size, or not finite.
+        RenderError: an image is missing, of another size, or not finite; or albedo is asked for
+            and the GLB cannot be read.
     """
-    images = [display(image) for image in linear]
     labels = cast(plan)
-    counts = (len(plan.states), len(plan.cameras))
-    shape = (*counts, len(plan.meshes), *plan.cameras[0].size[::-1])
-    rgba = np.stack([[images[k] for k in row] for row in plan.passes.composite])
-    alone = np.zeros((*shape, 4), np.uint8)
-    for t, v, p in np.ndindex(*shape[:3]):
-        if (shot := plan.passes.alone[t][v][p]) is not None:
-            left, top, right, bottom = plan.passes.shots[shot].box
-            alone[t, v, p, top:bottom, left:right] = images[shot]
+    whole = np.stack([[linear[k] for k in row] for row in plan.passes.composite])
     bundle = plan.bundle
     names = [part.name for part in bundle.parts]
     return Sample(
@@ -50,27 +47,47 @@ def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> S
         q=_joint_values(plan),
         center=bundle.center,
         radius=bundle.radius,
-        rgba=rgba,
-        part_rgba=alone,
-        part_id=np.stack([[view.part_id for view in row] for row in labels]),
-        depth=np.stack([[view.depth for view in row] for row in labels]),
-        normal=np.stack([[view.normal for view in row] for row in labels]),
-        part_depth=np.stack([[view.part_depth for view in row] for row in labels]),
-        part_normal=np.stack([[view.part_normal for view in row] for row in labels]),
+        rgba=display(whole),
+        part_rgba=_alone(plan, linear),
+        part_id=labels.part_id,
+        depth=labels.depth,
+        normal=labels.normal,
+        part_depth=labels.part_depth,
+        part_normal=labels.part_normal,
+        albedo=labels.albedo,
+        roughness=labels.roughness,
+        flow=labels.flow,
+        linear=whole.astype(np.float16) if "linear" in plan.settings.extras else None,
     )
 
 
-def cast(plan: RenderPlan) -> list[list[Labels]]:
-    """Labels [state][view]."""
+def cast(plan: RenderPlan) -> Labels:
+    """Labels of all states and views, with the extra ones that the settings ask for."""
     names = [part.name for part in plan.bundle.parts]
-    casters = [PartCaster(mesh) for mesh in plan.meshes]
-    return [
-        [
-            cast_labels(casters, names, poses, camera, boxes)
-            for camera, boxes in zip(plan.cameras, windows, strict=True)
-        ]
-        for poses, windows in zip(plan.poses, plan.passes.boxes, strict=True)
-    ]
+    extras = set(plan.settings.extras)
+    look = read_appearance(Path(plan.job.glb)) if extras & {"albedo", "roughness"} else None
+    return cast_labels(
+        [PartCaster(mesh) for mesh in plan.meshes],
+        poses_by_part(names, plan.poses),
+        plan.cameras,
+        plan.passes.boxes,
+        paint=None if look is None else paints(names, plan.meshes, look, plan.bundle.surfaces),
+        moving="flow" in extras,
+    )
+
+
+def _alone(plan: RenderPlan, linear: Sequence[Singles]) -> Bytes:
+    """(T, V, P, H, W, 4) every part alone; each shot is encoded once."""
+    shape = (len(plan.states), len(plan.cameras), len(plan.meshes), *plan.cameras[0].size[::-1])
+    alone = np.zeros((*shape, 4), np.uint8)
+    known: dict[int, Bytes] = {}
+    for t, v, p in np.ndindex(*shape[:3]):
+        if (shot := plan.passes.alone[t][v][p]) is not None:
+            if shot not in known:
+                known[shot] = display(linear[shot])
+            left, top, right, bottom = plan.passes.shots[shot].box
+            alone[t, v, p, top:bottom, left:right] = known[shot]
+    return alone
 
 
 def _cameras(plan: RenderPlan) -> Cameras:

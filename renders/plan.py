@@ -33,6 +33,7 @@ class RenderPlan:
     """
 
     bundle: Bundle
+    settings: Settings
     meshes: tuple[TriMesh, ...]
     states: tuple[State, ...]
     poses: tuple[dict[str, Floats], ...]
@@ -96,6 +97,7 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
     )
     return RenderPlan(
         bundle=bundle,
+        settings=settings,
         meshes=meshes,
         states=states,
         poses=poses,

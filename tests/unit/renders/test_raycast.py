@@ -6,14 +6,28 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from artgen.core.camera import Camera, framed, orbit_direction
-from artgen.core.mesh import TriMesh
+from artgen.core.mesh import Floats, TriMesh
 from artgen.core.rotation import axis_angle_matrix
 from artgen.core.transform import apply, rigid
+from artgen.dataset.sample import BACKGROUND
 from artgen.geometry.solid import box, cylinder
-from renders.raycast import BACKGROUND, PartCaster, cast_labels
+from renders.labels import Labels, cast_labels
+from renders.raycast import Box, PartCaster
 
 SIZE = (48, 48)
 FULL = (0, 0, *SIZE)
+
+
+def images(
+    caster: PartCaster, camera: Camera, pose: Floats, box: Box = FULL
+) -> tuple[Floats, Floats]:
+    """Depth and normal of one part alone."""
+    labels = cast_labels([caster], [[pose]], [camera], [[[box]]])
+    return labels.part_depth[0, 0, 0], labels.part_normal[0, 0, 0]
+
+
+def at_rest(casters: list[PartCaster], camera: Camera, boxes: list[Box]) -> Labels:
+    return cast_labels(casters, [[np.eye(4)] * len(casters)], [camera], [[boxes]])
 
 
 def front_camera() -> Camera:
@@ -25,7 +39,7 @@ def test_depth_is_planar_and_normals_face_outward() -> None:
     """A wall across the view has one depth, not one distance; float32 storage of 3 m: 2e-7."""
     camera = front_camera()
     wall = PartCaster(box((1.0, 0.2, 0.8)).trimesh())
-    depth, normal = wall.cast(camera, np.eye(4), FULL)
+    depth, normal = images(wall, camera, np.eye(4))
     expected = camera.project([0.0, -0.1, 0.4])[2]
     seen = depth > 0
     assert seen.sum() > 400
@@ -56,8 +70,8 @@ def test_moving_the_rays_equals_moving_the_part(
         size=SIZE,
         fill=0.9,
     )
-    one, facing_one = PartCaster(mesh).cast(camera, pose, FULL)
-    two, facing_two = PartCaster(moved).cast(camera, np.eye(4), FULL)
+    one, facing_one = images(PartCaster(mesh), camera, pose)
+    two, facing_two = images(PartCaster(moved), camera, np.eye(4))
     assert ((one > 0) != (two > 0)).sum() <= 2
     both = (one > 0) & (two > 0)
     close = np.abs(one - two) < 1e-6
@@ -69,26 +83,26 @@ def test_moving_the_rays_equals_moving_the_part(
 def test_the_composite_is_the_nearest_part_and_windows_only_save_work() -> None:
     near = box((0.3, 0.1, 0.3), at=(0, -0.3, 0.2)).trimesh()
     far = box((0.9, 0.1, 0.9)).trimesh()
-    camera, names = front_camera(), ["far", "near"]
+    camera = front_camera()
     casters = [PartCaster(far), PartCaster(near)]
-    poses = {name: np.eye(4) for name in names}
-    labels = cast_labels(casters, names, poses, camera, [FULL, FULL])
+    labels = at_rest(casters, camera, [FULL, FULL])
     assert set(np.unique(labels.part_id)) == {0, 1, BACKGROUND}
-    shown = labels.part_id == 1
-    assert np.array_equal(shown, labels.part_depth[1] > 0)
-    assert np.array_equal(labels.depth[shown], labels.part_depth[1][shown])
-    assert (labels.part_depth[0][shown] > labels.depth[shown]).all()
+    alone_far, alone_near = labels.part_depth[0, 0]
+    shown = labels.part_id[0, 0] == 1
+    assert np.array_equal(shown, alone_near > 0)
+    assert np.array_equal(labels.depth[0, 0][shown], alone_near[shown])
+    assert (alone_far[shown] > labels.depth[0, 0][shown]).all()
     assert np.array_equal(labels.part_id == BACKGROUND, labels.depth == 0)
-    rows, columns = np.nonzero(labels.part_depth[1])
+    rows, columns = np.nonzero(alone_near)
     tight = (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1)
-    cut = cast_labels(casters, names, poses, camera, [FULL, tight])
+    cut = at_rest(casters, camera, [FULL, tight])
     assert np.array_equal(cut.part_depth, labels.part_depth)
     assert np.array_equal(cut.part_normal, labels.part_normal)
 
 
 def test_a_part_outside_the_image_leaves_it_empty() -> None:
     caster = PartCaster(box((0.1, 0.1, 0.1)).trimesh())
-    depth, normal = caster.cast(front_camera(), np.eye(4), (0, 0, 0, 0))
+    depth, normal = images(caster, front_camera(), np.eye(4), (0, 0, 0, 0))
     assert not depth.any()
     assert not normal.any()
 
@@ -101,7 +115,7 @@ def test_no_ray_slips_through_the_seams_of_a_closed_body() -> None:
         camera = framed(
             ball.vertices, direction=orbit_direction(0.157 * k, 0.4), fov=0.5, size=SIZE, fill=0.9
         )
-        depth, normal = caster.cast(camera, np.eye(4), FULL)
+        depth, normal = images(caster, camera, np.eye(4))
         seen = depth > 0
         _, rays = camera.rays()
         # Smooth normals may turn away from a grazing ray by less than half a facet, 3 degrees.
@@ -122,9 +136,7 @@ def test_a_known_point_is_found_in_the_id_image(offset: float) -> None:
         size=(64, 64),
         fill=0.9,
     )
-    labels = cast_labels(
-        [PartCaster(ball)], ["ball"], {"ball": np.eye(4)}, camera, [(0, 0, 64, 64)]
-    )
-    rows, columns = np.nonzero(labels.part_id == 0)
+    labels = at_rest([PartCaster(ball)], camera, [(0, 0, 64, 64)])
+    rows, columns = np.nonzero(labels.part_id[0, 0] == 0)
     found = np.array([columns.mean() + 0.5, rows.mean() + 0.5])
     assert np.linalg.norm(found - camera.project(point)[:2]) < 0.5

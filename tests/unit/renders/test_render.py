@@ -11,13 +11,13 @@ import pytest
 from artgen.core.jsonio import plain
 from artgen.core.mesh import Floats
 from artgen.core.stream import Stream
+from artgen.dataset.sample import BACKGROUND
 from artgen.export import Bundle
 from artgen.imaging import display, read_exr
 from artgen.render_job import RenderJob, Shot
 from artgen.worker import BlenderWorker
 from renders.collect import cast
 from renders.plan import RenderPlan, plan_render
-from renders.raycast import BACKGROUND
 from renders.settings import Settings
 
 pytestmark = pytest.mark.blender
@@ -76,7 +76,7 @@ def test_opaque_parts_cover_the_pixels_that_rays_hit(
                 continue
             left, top, right, bottom = plan.passes.shots[number].box
             alpha = images[number][..., 3]
-            mask = labels[t][v].part_depth[p, top:bottom, left:right] > 0
+            mask = labels.part_depth[t, v, p, top:bottom, left:right] > 0
             around = np.stack(
                 [np.roll(mask, (i, j), axis=(0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
             )
@@ -119,7 +119,7 @@ def test_part_ids_agree_with_the_nearest_alpha(plan: RenderPlan, images: list[Fl
     steps = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
     for t, v in np.ndindex(2, 2):
         alpha = images[plan.passes.composite[t][v]][..., 3]
-        ids = labels[t][v].part_id
+        ids = labels.part_id[t, v]
         same = np.stack([np.roll(ids, step, axis=(0, 1)) == ids for step in steps])
         inside = same.all(axis=0) & (ids != BACKGROUND) & (ids != lid)
         assert np.count_nonzero(alpha[inside] < 0.999) <= 2
