@@ -8,6 +8,7 @@ File Layout", openexr.com; the ZIP predictor is that of the library's `ImfZip.cp
 import struct
 import zlib
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,11 +65,10 @@ def read_exr(data: bytes, channels: Sequence[str]) -> Pixels:
     return pixels
 
 
-def _planes(image: Pixels, channels: Sequence[str]) -> Pixels:
+def _planes(image: Pixels, channels: Sequence[str]) -> NDArray[Any]:
     """(H, C, W) little-endian, channels in alphabetic order, as lines lie in the file."""
     order = [list(channels).index(name) for name in sorted(channels)]
-    planes: Pixels = image[..., order].transpose(0, 2, 1).astype(image.dtype.newbyteorder("<"))
-    return planes
+    return image[..., order].transpose(0, 2, 1).astype(image.dtype.newbyteorder("<"))
 
 
 def _header(height: int, width: int, names: Sequence[str], *, half: bool) -> bytes:
@@ -93,7 +93,7 @@ def _header(height: int, width: int, names: Sequence[str], *, half: bool) -> byt
     return b"".join([_MAGIC, *parts, b"\0"])
 
 
-def _block(y: int, planes: Pixels) -> bytes:
+def _block(y: int, planes: NDArray[Any]) -> bytes:
     """One chunk: its first line, its size, and the lines; stored as they are where ZIP gains
     nothing."""
     raw = np.frombuffer(planes.tobytes(), np.uint8)

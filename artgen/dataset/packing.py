@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from artgen.core.errors import ShardError
-from artgen.core.jsonio import content_hash, write_json
+from artgen.core.jsonio import content_hash
+from artgen.dataset.contents import CONTENTS, Contents, listed, write_contents
 from artgen.dataset.members import encoded
 from artgen.dataset.reader import OpenShard, open_shard
 from artgen.dataset.sample import Sample
-from artgen.dataset.shard import ShardManifest, verify_shard, write_shard
+from artgen.dataset.shard import ShardManifest, is_whole, write_shard
 from artgen.dataset.split import SPLITS, split_of
 
-DATASET_SCHEMA = "artgen-dataset/1"
 PER_SHARD = 1000
 """Samples of one shard: 0.3 to 1 MB each at 128 px, so shards of the usual 0.3 to 1 GB."""
 _OURS = re.compile(r"(train|val|test)-\d{6}(\.tar|\.json|\.index\.parquet)(\.partial)?")
@@ -31,12 +31,20 @@ class Packing:
     per_shard: int
     shards: tuple[ShardManifest, ...]
     left_out: Mapping[str, str]
-    schema: str = DATASET_SCHEMA
 
     @property
     def shard_of(self) -> dict[str, str]:
         """Asset id to the name of its shard."""
         return {asset_id: shard.file for shard in self.shards for asset_id in shard.ids}
+
+    @property
+    def contents(self) -> Contents:
+        """The packing without its asset ids, which each shard's own manifest lists."""
+        return Contents(
+            per_shard=self.per_shard,
+            shards=tuple(map(listed, self.shards)),
+            left_out=self.left_out,
+        )
 
 
 def stage(path: Path, sample: Sample) -> ShardManifest:
@@ -79,7 +87,7 @@ def pack(
         shards=tuple(shards),
         left_out=dict(sorted({**(left_out or {}), **broken}.items())),
     )
-    _write_contents(folder / "dataset.json", packing)
+    write_contents(folder, packing.contents)
     return packing
 
 
@@ -101,7 +109,9 @@ def _opened(staged: Iterable[Path]) -> tuple[dict[str, OpenShard], dict[str, str
             continue
         for asset_id in shard.manifest.ids:
             if asset_id in found:
-                raise ShardError(f"{path}: {asset_id} is in {found[asset_id].path} too; remove one")
+                raise ShardError(
+                    f"{path}: {asset_id} is in {found[asset_id].place} too; remove one"
+                )
             found[asset_id] = shard
     return dict(sorted(found.items())), broken
 
@@ -124,11 +134,8 @@ def _digest(group: Mapping[str, OpenShard]) -> str:
 
 def _kept(path: Path, group: Mapping[str, OpenShard]) -> ShardManifest | None:
     """The manifest of a shard that is there, whole, and made from just these samples."""
-    try:
-        manifest = verify_shard(path)
-    except ShardError:
-        return None
-    return manifest if manifest.sources_sha256 == _digest(group) else None
+    manifest = is_whole(path)
+    return manifest if manifest and manifest.sources_sha256 == _digest(group) else None
 
 
 def _packed(path: Path, group: Mapping[str, OpenShard]) -> ShardManifest:
@@ -136,16 +143,9 @@ def _packed(path: Path, group: Mapping[str, OpenShard]) -> ShardManifest:
     return write_shard(path, samples, sources_sha256=_digest(group))
 
 
-def _write_contents(path: Path, packing: Packing) -> None:
-    """The packing without its asset ids, which each shard's own manifest lists."""
-    keys = ("file", "samples", "bytes", "sha256")
-    shards = [{key: getattr(shard, key) for key in keys} for shard in packing.shards]
-    write_json(path, {**vars(packing), "shards": shards})
-
-
 def _clear(folder: Path, *, keep: set[Path]) -> None:
     """Remove `dataset.json` and every file of our naming that belongs to no kept shard."""
-    (folder / "dataset.json").unlink(missing_ok=True)
+    (folder / CONTENTS).unlink(missing_ok=True)
     names = {path.stem for path in keep}
     for path in sorted(folder.glob("*")):
         if _OURS.fullmatch(path.name) and path.name.split(".")[0] not in names:

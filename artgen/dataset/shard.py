@@ -1,50 +1,29 @@
 """Shards: plain tars that appear whole, each with an index for random access and a manifest.
 
-`train-000000.tar` comes with `train-000000.index.parquet` (offset, size and CRC-32 of every member)
-and `train-000000.json` (what the shard holds, with hashes). The sidecars are renamed into place
-before the tar is, so a tar that is seen is complete and has its sidecars.
+`train-000000.tar` comes with `train-000000.index.parquet` (offset, size and CRC-32C of every
+member) and `train-000000.json` (what the shard holds, with hashes). The sidecars are renamed into
+place before the tar is, so a tar that is seen is complete and has its sidecars.
 """
 
-import hashlib
 import io
-import json
 import os
 import tarfile
-import zlib
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
-
-import pyarrow as pa
-import pyarrow.parquet as pq
 
 from artgen.core.errors import ShardError
-from artgen.core.jsonio import canonical_json, content_hash, file_hash
+from artgen.core.jsonio import canonical_json, file_hash
+from artgen.dataset.index import Index, Place, crc32c, parsed_index, write_index
 from artgen.dataset.members import EncodedSample
+from artgen.dataset.sealed import sealed, unsealed
+from artgen.dataset.store import LocalStore, Store
 
-SHARD_SCHEMA = "artgen-shard/1"
-_HEADER = 512
+SHARD_SCHEMA = "artgen-shard/2"
+HEADER = 512
 """Bytes of a USTAR header; a member's data follow it."""
-_INDEX_TYPES = pa.schema(
-    [
-        ("asset_id", pa.string()),
-        ("names", pa.list_(pa.string())),
-        ("offsets", pa.list_(pa.int64())),
-        ("sizes", pa.list_(pa.int64())),
-        ("crc32", pa.list_(pa.uint32())),
-    ]
-)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Place:
-    """Where one member's bytes lie in a tar."""
-
-    name: str
-    offset: int
-    size: int
-    crc32: int
+RECORD = 10240
+"""A tar's length is a multiple of this, bytes; the end is zeros."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,7 +35,6 @@ class ShardManifest:
         bytes, sha256: of the tar.
         index_sha256: of the index sidecar.
         ids: asset ids in the order of the tar, ascending.
-        ids_sha256: of the canonical JSON of `ids`.
         sources_sha256: of what the shard was packed from; equal sources need no repacking.
     """
 
@@ -65,7 +43,6 @@ class ShardManifest:
     sha256: str
     index_sha256: str
     ids: tuple[str, ...]
-    ids_sha256: str
     sources_sha256: str = ""
     samples: int = field(init=False)
     schema: str = SHARD_SCHEMA
@@ -74,14 +51,34 @@ class ShardManifest:
         object.__setattr__(self, "samples", len(self.ids))
 
 
-def index_path(shard: Path) -> Path:
+def manifest_text(manifest: ShardManifest) -> str:
+    """The content of `<shard>.json`."""
+    return canonical_json(sealed(asdict(manifest))) + "\n"
+
+
+def index_name(shard: str) -> str:
     """`train-000000.tar` -> `train-000000.index.parquet`."""
-    return shard.with_suffix(".index.parquet")
+    return shard.removesuffix(".tar") + ".index.parquet"
+
+
+def manifest_name(shard: str) -> str:
+    """`train-000000.tar` -> `train-000000.json`."""
+    return shard.removesuffix(".tar") + ".json"
+
+
+def index_path(shard: Path) -> Path:
+    """The index beside a local shard."""
+    return shard.with_name(index_name(shard.name))
 
 
 def manifest_path(shard: Path) -> Path:
-    """`train-000000.tar` -> `train-000000.json`."""
-    return shard.with_suffix(".json")
+    """The manifest beside a local shard."""
+    return shard.with_name(manifest_name(shard.name))
+
+
+def header(member: str, size: int) -> bytes:
+    """The 512 bytes before a member, which follow from its name and size alone."""
+    return _info(member, size).tobuf(tarfile.USTAR_FORMAT)
 
 
 def write_shard(
@@ -99,9 +96,9 @@ def write_shard(
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         rows = _write_tar(partials[path], samples)
-        _write_index(partials[index_path(path)], rows)
+        write_index(partials[index_path(path)], rows)
         manifest = _manifest(path, partials, list(rows), sources_sha256)
-        partials[manifest_path(path)].write_text(canonical_json(manifest) + "\n")
+        partials[manifest_path(path)].write_text(manifest_text(manifest))
         for partial in partials.values():
             _flush(partial)
         path.unlink(missing_ok=True)
@@ -119,93 +116,69 @@ def write_shard(
     return manifest
 
 
-def read_manifest(path: Path) -> ShardManifest:
+def read_manifest(store: Store, name: str) -> ShardManifest:
     """The manifest beside a shard.
 
     Raises:
-        ShardError: it is missing, unreadable, or of another schema.
+        ShardError: it is missing, corrupt, or of another schema.
     """
-    place = manifest_path(path)
-    try:
-        facts: Mapping[str, Any] = json.loads(place.read_text(encoding="utf-8"))
-    except FileNotFoundError as error:
-        raise ShardError(
-            f"{path}: {place.name} is missing beside it; copy the sidecars together with the tar, "
-            "or pack again"
-        ) from error
-    except ValueError as error:
-        raise ShardError(f"{place}: is not JSON ({error}); pack again") from error
-    if facts.get("schema") != SHARD_SCHEMA:
-        raise ShardError(
-            f"{place}: shard schema is {facts.get('schema')!r}, this release reads "
-            f"{SHARD_SCHEMA!r}; pack again from the samples, or use the release that wrote it"
-        )
-    try:
-        return ShardManifest(
-            file=facts["file"],
-            bytes=facts["bytes"],
-            sha256=facts["sha256"],
-            index_sha256=facts["index_sha256"],
-            ids=tuple(facts["ids"]),
-            ids_sha256=facts["ids_sha256"],
-            sources_sha256=facts["sources_sha256"],
-        )
-    except (KeyError, TypeError) as error:
-        raise ShardError(f"{place}: lacks or misspells {error}; pack again") from error
+    place = store.where(manifest_name(name))
+    data = _sidecar(store, name, manifest_name(name))
+    facts = unsealed(data, where=place, schema=SHARD_SCHEMA)
+    return ShardManifest(
+        file=facts["file"],
+        bytes=facts["bytes"],
+        sha256=facts["sha256"],
+        index_sha256=facts["index_sha256"],
+        ids=tuple(facts["ids"]),
+        sources_sha256=facts["sources_sha256"],
+    )
 
 
-def read_index(path: Path, manifest: ShardManifest) -> dict[str, tuple[Place, ...]]:
+def read_index(store: Store, name: str, manifest: ShardManifest) -> Index:
     """Asset id to the places of its members.
 
     Raises:
         ShardError: the index is missing or not the one that the manifest describes.
     """
-    place = index_path(path)
-    try:
-        data = place.read_bytes()
-    except FileNotFoundError as error:
-        raise ShardError(
-            f"{path}: {place.name} is missing beside it; copy the sidecars together with the tar, "
-            "or pack again"
-        ) from error
-    if hashlib.sha256(data).hexdigest() != manifest.index_sha256:
-        raise ShardError(
-            f"{place}: its sha256 is not the one in {manifest_path(path).name}; one of the two is "
-            "corrupt or from another packing: copy both again, or pack again"
-        )
-    return {row["asset_id"]: _places(row) for row in pq.read_table(io.BytesIO(data)).to_pylist()}
+    data = _sidecar(store, name, index_name(name))
+    where = store.where(index_name(name))
+    index = parsed_index(data, where=where, sha256=manifest.index_sha256)
+    if tuple(index) != manifest.ids:
+        raise ShardError(f"{where}: lists other assets than the manifest; pack again")
+    return index
 
 
-def verify_shard(path: Path) -> ShardManifest:
-    """The manifest, after hashing every byte of the tar and its index.
-
-    Raises:
-        ShardError: any byte differs from what was written.
-    """
-    manifest = read_manifest(path)
-    check_size(path, manifest)
-    read_index(path, manifest)
-    if (found := file_hash(path)) != manifest.sha256:
-        raise ShardError(
-            f"{path}: sha256 is {found[:12]}..., its manifest says {manifest.sha256[:12]}...; "
-            "the tar is corrupt: copy it again, or pack again"
-        )
-    return manifest
-
-
-def check_size(path: Path, manifest: ShardManifest) -> None:
-    """Raise ShardError unless the tar is there with the manifest's size."""
-    try:
-        found = path.stat().st_size
-    except FileNotFoundError as error:
-        raise ShardError(
-            f"{path}: is missing, only its sidecars are here; copy it again"
-        ) from error
+def check_size(where: str, found: int | None, manifest: ShardManifest) -> None:
+    """Raise ShardError unless a tar is there with the manifest's size."""
+    if found is None:
+        raise ShardError(f"{where}: is missing, only its sidecars are here; copy it again")
     if found != manifest.bytes:
         raise ShardError(
-            f"{path}: is {found} bytes, its manifest says {manifest.bytes}; the copy is truncated "
+            f"{where}: is {found} bytes, its manifest says {manifest.bytes}; the copy is truncated "
             "or from another packing: copy it again, or pack again"
         )
+
+
+def is_whole(path: Path) -> ShardManifest | None:
+    """The manifest of a local shard all of whose bytes are what was written, else None."""
+    store = LocalStore(path.parent)
+    try:
+        manifest = read_manifest(store, path.name)
+        read_index(store, path.name, manifest)
+    except ShardError:
+        return None
+    return manifest if path.exists() and file_hash(path) == manifest.sha256 else None
+
+
+def _sidecar(store: Store, name: str, sidecar: str) -> bytes:
+    try:
+        return store.read(sidecar)
+    except FileNotFoundError as error:
+        raise ShardError(
+            f"{store.where(name)}: {sidecar} is missing beside it; copy the sidecars together with "
+            "the tar, or pack again"
+        ) from error
 
 
 def _files(path: Path) -> tuple[Path, Path, Path]:
@@ -234,26 +207,16 @@ def _write_tar(partial: Path, samples: Iterable[EncodedSample]) -> dict[str, tup
 
 
 def _append(tar: tarfile.TarFile, asset_id: str, name: str, data: bytes) -> Place:
-    """One member; TarInfo's own defaults are mode 0644, no owner, and the epoch as its time."""
-    info = tarfile.TarInfo(f"{asset_id}.{name}")
-    info.size = len(data)
-    place = Place(name=name, offset=tar.offset + _HEADER, size=len(data), crc32=zlib.crc32(data))
-    tar.addfile(info, io.BytesIO(data))
+    place = Place(name=name, offset=tar.offset + HEADER, size=len(data), crc32c=crc32c(data))
+    tar.addfile(_info(f"{asset_id}.{name}", len(data)), io.BytesIO(data))
     return place
 
 
-def _write_index(partial: Path, rows: Mapping[str, Sequence[Place]]) -> None:
-    table = pa.table(
-        {
-            "asset_id": list(rows),
-            "names": [[place.name for place in places] for places in rows.values()],
-            "offsets": [[place.offset for place in places] for places in rows.values()],
-            "sizes": [[place.size for place in places] for places in rows.values()],
-            "crc32": [[place.crc32 for place in places] for places in rows.values()],
-        },
-        schema=_INDEX_TYPES,
-    )
-    pq.write_table(table, partial, compression="zstd")
+def _info(member: str, size: int) -> tarfile.TarInfo:
+    """TarInfo's own defaults are mode 0644, no owner, and the epoch as its time."""
+    info = tarfile.TarInfo(member)
+    info.size = size
+    return info
 
 
 def _manifest(
@@ -265,15 +228,7 @@ def _manifest(
         sha256=file_hash(partials[path]),
         index_sha256=file_hash(partials[index_path(path)]),
         ids=tuple(ids),
-        ids_sha256=content_hash(ids),
         sources_sha256=sources_sha256,
-    )
-
-
-def _places(row: Mapping[str, Any]) -> tuple[Place, ...]:
-    columns = zip(row["names"], row["offsets"], row["sizes"], row["crc32"], strict=True)
-    return tuple(
-        Place(name=name, offset=offset, size=size, crc32=crc) for name, offset, size, crc in columns
     )
 
 

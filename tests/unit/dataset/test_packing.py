@@ -15,7 +15,7 @@ from artgen.core.errors import ShardError
 from artgen.dataset.members import encoded
 from artgen.dataset.packing import pack, shard_count, stage
 from artgen.dataset.reader import ShardDataset, open_shard
-from artgen.dataset.shard import verify_shard, write_shard
+from artgen.dataset.shard import is_whole, write_shard
 from artgen.dataset.split import SPLITS, split_of
 from tests.unit.dataset.packed_by_force import PER_SHARD
 from tests.unit.dataset.scenes import made_sample
@@ -64,7 +64,7 @@ def test_packing_and_writing_directly_give_the_same_tar(packed, tmp_path):
 def test_every_asset_is_packed_once_and_in_its_own_split(packed):
     found = {split: set() for split in SPLITS}
     for path in packed.glob("*.tar"):
-        manifest = verify_shard(path)
+        manifest = is_whole(path)
         assert 1 <= manifest.samples <= PER_SHARD
         found[path.name.split("-")[0]] |= set(manifest.ids)
     assert sorted(name for ids in found.values() for name in ids) == sorted(IDS)
@@ -135,8 +135,8 @@ def test_a_kill_at_any_instant_leaves_complete_shards_and_the_next_run_the_same_
     assert len(runs) > 10
     unfinished = 0
     for folder in runs:
-        complete = [verify_shard(path) for path in folder.glob("*.tar")]
-        assert all(shard.sha256 == verify_shard(packed / shard.file).sha256 for shard in complete)
+        complete = [is_whole(path) for path in folder.glob("*.tar")]
+        assert all(shard.sha256 == is_whole(packed / shard.file).sha256 for shard in complete)
         unfinished += len(complete) < len(list(packed.glob("*.tar")))
         pack(staged.glob("*.tar"), folder, per_shard=PER_SHARD)
         assert content(folder) == content(packed)
@@ -160,6 +160,6 @@ def test_a_full_disk_is_one_clear_error_and_leaves_nothing_half_written(staged, 
     assert not list(tmp_path.glob("*.partial"))
     assert not (tmp_path / "dataset.json").exists()
     for path in tmp_path.glob("*.tar"):
-        verify_shard(path)
+        is_whole(path)
     pack(staged.glob("*.tar"), tmp_path, per_shard=PER_SHARD)
     assert content(tmp_path) == content(packed)

@@ -17,7 +17,7 @@ from artgen.core.errors import ShardError
 from artgen.dataset.codec import read_rgba
 from artgen.dataset.members import encoded
 from artgen.dataset.reader import ShardDataset, open_shard, read_shard
-from artgen.dataset.shard import index_path, manifest_path, verify_shard, write_shard
+from artgen.dataset.shard import index_path, manifest_path, write_shard
 from artgen.dataset.slots import to_slots
 from tests.unit.dataset.scenes import assert_same, made_sample
 
@@ -163,41 +163,6 @@ def test_the_webdataset_library_reads_the_same_samples(intact):
         np.testing.assert_array_equal(arrays["motion"], sample.targets.motion)
 
 
-@settings(deadline=None, max_examples=40)
-@given(data=st.data())
-def test_a_flipped_bit_is_detected(intact, tmp_path_factory, data):
-    """In a member: by every read of that member. Anywhere at all, headers included: by verify."""
-    folder = tmp_path_factory.mktemp("flip")
-    for path in (intact, index_path(intact), manifest_path(intact)):
-        shutil.copy(path, folder)
-    spoilt = folder / intact.name
-    content = bytearray(spoilt.read_bytes())
-    byte = data.draw(st.integers(0, len(content) - 1))
-    content[byte] ^= 1 << data.draw(st.integers(0, 7))
-    spoilt.write_bytes(content)
-    hit = [
-        (asset_id, place.name)
-        for asset_id, places in open_shard(intact).index.items()
-        for place in places
-        if place.offset <= byte < place.offset + place.size
-    ]
-    for asset_id, name in hit:
-        with pytest.raises(ShardError, match=rf"{asset_id}\.{name} .*checksum"):
-            ShardDataset(folder)[IDS.index(asset_id)]
-    if not hit:
-        assert len(list(read_shard(spoilt))) == 3
-    with pytest.raises(ShardError, match="sha256"):
-        verify_shard(spoilt)
-
-
-def test_a_flipped_bit_in_the_index_is_detected(copied):
-    content = bytearray(index_path(copied).read_bytes())
-    content[len(content) // 2] ^= 1
-    index_path(copied).write_bytes(content)
-    with pytest.raises(ShardError, match="sha256"):
-        open_shard(copied)
-
-
 @pytest.mark.parametrize("kept", [0, 511, 5000, -1])
 def test_a_truncated_shard_is_detected(copied, kept):
     copied.write_bytes(copied.read_bytes()[:kept])
@@ -228,7 +193,7 @@ def test_sidecars_without_their_tar_are_named(copied):
 def test_an_old_shard_schema_is_named_with_ours_and_a_remedy(copied):
     facts = json.loads(manifest_path(copied).read_text())
     manifest_path(copied).write_text(json.dumps(facts | {"schema": "artgen-shard/0"}))
-    with pytest.raises(ShardError, match=r"'artgen-shard/0'.*'artgen-shard/1'; pack again"):
+    with pytest.raises(ShardError, match=r"'artgen-shard/0'.*'artgen-shard/2'; pack again"):
         open_shard(copied)
 
 
@@ -246,8 +211,8 @@ def test_a_garbled_manifest_is_named(copied):
     manifest_path(copied).write_text("{")
     with pytest.raises(ShardError, match="not JSON"):
         open_shard(copied)
-    manifest_path(copied).write_text('{"schema": "artgen-shard/1"}')
-    with pytest.raises(ShardError, match="lacks"):
+    manifest_path(copied).write_text('{"schema": "artgen-shard/2"}')
+    with pytest.raises(ShardError, match="digest"):
         open_shard(copied)
 
 
