@@ -1,0 +1,1 @@
+"""`artgen study defects`: which planted defects are caught, by us and by other checkers."""

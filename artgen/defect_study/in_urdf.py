@@ -1,0 +1,409 @@
+"""Defects of a URDF's text."""
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from artgen.defect_study.defect import Defect, Plant
+from artgen.export.layout import URDF
+
+Change = Callable[[ET.Element], None]
+MOVING = ("revolute", "prismatic", "continuous")
+
+
+def in_tree(change: Change) -> Plant:
+    """A plant that edits the URDF's elements."""
+
+    def plant(folder: Path) -> None:
+        tree = ET.parse(folder / URDF)
+        change(tree.getroot())
+        tree.write(folder / URDF)
+
+    return plant
+
+
+def in_text(change: Callable[[str], str]) -> Plant:
+    """A plant that edits the URDF as text."""
+
+    def plant(folder: Path) -> None:
+        path = folder / URDF
+        path.write_text(change(path.read_text(encoding="utf-8")), encoding="utf-8")
+
+    return plant
+
+
+def joint(root: ET.Element, *kinds: str) -> ET.Element:
+    """The first joint of one of the kinds."""
+    for element in root.iter("joint"):
+        if element.get("type") in (kinds or MOVING):
+            return element
+    raise LookupError(f"no joint of type {' or '.join(kinds or MOVING)}")
+
+
+def child_link(root: ET.Element, moved: ET.Element) -> ET.Element:
+    """The link that a joint moves."""
+    name = below(moved, "child").get("link")
+    return next(link for link in root.iter("link") if link.get("name") == name)
+
+
+def below(element: ET.Element, path: str) -> ET.Element:
+    """The element at a path."""
+    found = element.find(path)
+    if found is None:
+        raise LookupError(f"no {path} in {element.get('name')}")
+    return found
+
+
+def on_joint(path: str, key: str, value: str, *kinds: str) -> Plant:
+    """Set an attribute below the first joint of a kind; a path of "." is the joint itself."""
+
+    def change(root: ET.Element) -> None:
+        target = joint(root, *kinds)
+        (target if path == "." else below(target, path)).set(key, value)
+
+    return in_tree(change)
+
+
+def on_link(path: str, key: str, value: str) -> Plant:
+    """Set an attribute below the first moving link."""
+
+    def change(root: ET.Element) -> None:
+        below(child_link(root, joint(root)), path).set(key, value)
+
+    return in_tree(change)
+
+
+def without(path: str, *, of_joint: bool) -> Plant:
+    """Take every element at a path out of the first joint or moving link."""
+
+    def change(root: ET.Element) -> None:
+        owner = joint(root) if of_joint else child_link(root, joint(root))
+        found = owner.findall(path)
+        if not found:
+            raise LookupError(f"no {path} in {owner.get('name')}")
+        for element in found:
+            owner.remove(element)
+
+    return in_tree(change)
+
+
+def numbers(element: ET.Element, key: str) -> np.ndarray:
+    """The numbers of an attribute."""
+    return np.array([float(word) for word in element.get(key, "0 0 0").split()])
+
+
+def put(element: ET.Element, key: str, values: np.ndarray) -> None:
+    """Write numbers to an attribute."""
+    element.set(key, " ".join(repr(float(value)) for value in values))
+
+
+def scaled(path: str, key: str, factor: float) -> Plant:
+    """Multiply the numbers of an attribute below the first moving link."""
+
+    def change(root: ET.Element) -> None:
+        element = below(child_link(root, joint(root)), path)
+        put(element, key, factor * numbers(element, key))
+
+    return in_tree(change)
+
+
+def shifted(path: str, key: str, by: tuple[float, float, float], *kinds: str) -> Plant:
+    """Add to the numbers of an attribute below the first joint of a kind."""
+
+    def change(root: ET.Element) -> None:
+        element = below(joint(root, *kinds), path)
+        put(element, key, numbers(element, key) + by)
+
+    return in_tree(change)
+
+
+def tilted(degrees: float) -> Plant:
+    """Turn the first hinge's axis about a perpendicular."""
+
+    def change(root: ET.Element) -> None:
+        element = below(joint(root, "revolute", "continuous"), "axis")
+        axis = numbers(element, "xyz")
+        aside = np.cross(axis, (0.36, 0.48, 0.8))
+        angle = math.radians(degrees)
+        turned = math.cos(angle) * axis + math.sin(angle) * aside / np.linalg.norm(aside)
+        put(element, "xyz", turned)
+
+    return in_tree(change)
+
+
+def reversed_axis(*kinds: str) -> Plant:
+    """Turn the first axis of a kind around."""
+
+    def change(root: ET.Element) -> None:
+        element = below(joint(root, *kinds), "axis")
+        put(element, "xyz", -numbers(element, "xyz"))
+
+    return in_tree(change)
+
+
+def limits_times(factor: float, *kinds: str) -> Plant:
+    """Multiply both limits of the first joint of a kind."""
+
+    def change(root: ET.Element) -> None:
+        element = below(joint(root, *kinds), "limit")
+        for key in ("lower", "upper"):
+            element.set(key, repr(factor * float(element.get(key, "0"))))
+
+    return in_tree(change)
+
+
+def rest_shifted(share: float) -> Plant:
+    """Move the zero of the first joint by a share of its range, limits with it: rest is ajar."""
+
+    def change(root: ET.Element) -> None:
+        moved = joint(root, "revolute", "prismatic")
+        limit, origin = below(moved, "limit"), below(moved, "origin")
+        lower, upper = (float(limit.get(key, "0")) for key in ("lower", "upper"))
+        shift = share * (upper - lower)
+        axis = numbers(below(moved, "axis"), "xyz")
+        limit.set("lower", repr(lower - shift))
+        limit.set("upper", repr(upper - shift))
+        if moved.get("type") == "prismatic":
+            put(origin, "xyz", numbers(origin, "xyz") + shift * axis)
+        else:
+            put(origin, "rpy", shift * axis)  # right where the axis is a coordinate axis
+
+    return in_tree(change)
+
+
+def inertia_set(change: Callable[[np.ndarray, float], np.ndarray]) -> Plant:
+    """Replace the tensor of the first moving link by a function of it and of the mass."""
+
+    def edit(root: ET.Element) -> None:
+        inertial = below(child_link(root, joint(root)), "inertial")
+        element = below(inertial, "inertia")
+        keys = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+        xx, xy, xz, yy, yz, zz = (float(element.get(key, "0")) for key in keys)
+        mass = float(below(inertial, "mass").get("value", "0"))
+        tensor = change(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), mass)
+        for key, value in zip(keys, tensor[np.triu_indices(3)].tolist(), strict=True):
+            element.set(key, repr(value))
+
+    return in_tree(edit)
+
+
+def about_link_origin(root: ET.Element) -> None:
+    """The tensor about the link's origin, where the format wants it about the centre of mass."""
+    inertial = below(child_link(root, joint(root)), "inertial")
+    x = numbers(below(inertial, "origin"), "xyz")
+    shift = float(x @ x) * np.eye(3) - np.outer(x, x)
+    element = below(inertial, "inertia")
+    mass = float(below(inertial, "mass").get("value", "0"))
+    for key, (i, j) in {"ixx": (0, 0), "iyy": (1, 1), "izz": (2, 2), "ixy": (0, 1)}.items():
+        element.set(key, repr(float(element.get(key, "0")) + mass * float(shift[i, j])))
+
+
+def second_root(root: ET.Element) -> None:
+    """A joint is forgotten, so its child hangs in the air."""
+    root.remove(joint(root))
+
+
+def twin(tag: str) -> Plant:
+    """A second element with the name of the first moving one."""
+
+    def change(root: ET.Element) -> None:
+        moved = joint(root)
+        element = moved if tag == "joint" else child_link(root, moved)
+        root.append(ET.fromstring(ET.tostring(element)))
+
+    return in_tree(change)
+
+
+def extra_joint(parent: str, child: str) -> Plant:
+    """Another joint between links: `base`, `first` (the first moving link) or a name."""
+
+    def change(root: ET.Element) -> None:
+        moved = joint(root)
+        names = {
+            "base": below(moved, "parent").get("link", ""),
+            "first": below(moved, "child").get("link", ""),
+        }
+        added = ET.SubElement(root, "joint", name="added", type="fixed")
+        ET.SubElement(added, "parent", link=names.get(parent, parent))
+        ET.SubElement(added, "child", link=names.get(child, child))
+
+    return in_tree(change)
+
+
+def mimic(other: str) -> Plant:
+    """The first joint follows another; `self` is itself."""
+
+    def change(root: ET.Element) -> None:
+        moved = joint(root)
+        followed = moved.get("name", "") if other == "self" else other
+        ET.SubElement(moved, "mimic", joint=followed, multiplier="1", offset="0")
+
+    return in_tree(change)
+
+
+def friction_above_effort(root: ET.Element) -> None:
+    """Nothing the joint may exert moves it."""
+    moved = joint(root)
+    effort = float(below(moved, "limit").get("effort", "1"))
+    dynamics = moved.find("dynamics")
+    if dynamics is None:
+        dynamics = ET.SubElement(moved, "dynamics")
+    dynamics.set("friction", repr(3.0 * effort))
+
+
+def collision_boxes(
+    change: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]],
+) -> Plant:
+    """Change center and size of every box of the first moving link."""
+
+    def edit(root: ET.Element) -> None:
+        link = child_link(root, joint(root))
+        boxes = [c for c in link.findall("collision") if c.find("geometry/box") is not None]
+        if not boxes:
+            raise LookupError(f"no collision box in {link.get('name')}")
+        for piece in boxes:
+            box, origin = below(piece, "geometry/box"), below(piece, "origin")
+            center, size = change(numbers(origin, "xyz"), numbers(box, "size"))
+            put(origin, "xyz", center)
+            put(box, "size", size)
+
+    return in_tree(edit)
+
+
+def visual_as_collision(root: ET.Element) -> None:
+    """The whole visible mesh stands for the base in contact; simulators take its hull."""
+    base = root.find("link")
+    if base is None:
+        raise LookupError("no link")
+    mesh = below(base, "visual/geometry/mesh").get("filename", "")
+    for piece in base.findall("collision"):
+        base.remove(piece)
+    added = ET.SubElement(base, "collision")
+    ET.SubElement(added, "origin", xyz="0 0 0", rpy="0 0 0")
+    ET.SubElement(ET.SubElement(added, "geometry"), "mesh", filename=mesh)
+
+
+TREE = (
+    ("two_roots", "a joint is forgotten", in_tree(second_root)),
+    ("duplicate_link", "two links share a name", twin("link")),
+    ("duplicate_joint", "two joints share a name", twin("joint")),
+    ("unknown_parent", "a joint names a link that is not there", on_joint("parent", "link", "nix")),
+    ("unknown_child", "a joint moves a link that is not there", on_joint("child", "link", "nix")),
+    ("cycle", "a link is its own ancestor", extra_joint("first", "base")),
+    ("self_loop", "a joint joins a link to itself", extra_joint("first", "first")),
+    ("two_parents", "a link hangs on two joints", extra_joint("base", "first")),
+    ("joint_type", "a joint type that does not exist", on_joint(".", "type", "hinge")),
+    ("no_joint_type", "a joint without a type", on_joint(".", "type", "")),
+    ("mimic_unknown", "a joint follows one that is not there", mimic("nix")),
+    ("mimic_self", "a joint follows itself", mimic("self")),
+    ("truncated", "half the file was written", in_text(lambda text: text[: len(text) // 2])),
+    ("empty", "nothing was written", in_text(lambda text: "")),
+)
+MOTION = (
+    ("axis_zero", "an axis of no length", on_joint("axis", "xyz", "0 0 0")),
+    ("axis_tiny", "an axis of length 1e-6", on_joint("axis", "xyz", "0 0 1e-6")),
+    ("axis_long", "an axis that was not normalized", on_joint("axis", "xyz", "0 3 0")),
+    ("axis_nan", "an axis that is not a number", on_joint("axis", "xyz", "nan 0 0")),
+    ("axis_two_numbers", "an axis of two numbers", on_joint("axis", "xyz", "0 1")),
+    ("axis_commas", "numbers with commas", on_joint("axis", "xyz", "0,0,1")),
+    ("axis_reversed", "the door opens inwards", reversed_axis("revolute")),
+    ("slide_reversed", "the drawer opens inwards", reversed_axis("prismatic")),
+    ("axis_tilted", "a hinge 3 degrees off", tilted(3.0)),
+    (
+        "pivot_off",
+        "the pivot lies 50 mm beside the edge",
+        shifted("origin", "xyz", (0.05, 0.05, 0)),
+    ),
+    ("pivot_mm", "a pivot in millimetres", shifted("origin", "xyz", (500.0, 0, 0))),
+    ("pivot_nan", "a pivot that is not a number", on_joint("origin", "xyz", "nan 0 0")),
+    ("limits_swapped", "lower above upper", limits_times(-1.0, "revolute", "prismatic")),
+    ("limits_equal", "a joint that cannot move", limits_times(0.0, "revolute", "prismatic")),
+    ("limits_missing", "a hinge without limits", without("limit", of_joint=True)),
+    ("limits_nan", "a limit that is not a number", on_joint("limit", "upper", "nan")),
+    ("limits_infinite", "a limit without end", on_joint("limit", "upper", "inf")),
+    ("limits_degrees", "limits in degrees", limits_times(180 / math.pi, "revolute")),
+    ("limits_beyond_turn", "a hinge of more than a turn", limits_times(6.0, "revolute")),
+    ("limits_past_zero", "rest lies outside the limits", on_joint("limit", "lower", "0.2")),
+    ("travel_too_long", "the drawer leaves its rails", limits_times(3.0, "prismatic")),
+    ("rest_ajar", "drawn with the door ajar", rest_shifted(0.4)),
+    ("effort_zero", "no force may be exerted", on_joint("limit", "effort", "0")),
+    ("effort_negative", "a negative force limit", on_joint("limit", "effort", "-5")),
+    ("velocity_zero", "no speed is allowed", on_joint("limit", "velocity", "0")),
+    ("damping_negative", "damping that drives", on_joint("dynamics", "damping", "-1")),
+    ("friction_negative", "friction that drives", on_joint("dynamics", "friction", "-1")),
+    ("damping_nan", "damping that is not a number", on_joint("dynamics", "damping", "nan")),
+    ("friction_above_effort", "friction that nothing overcomes", in_tree(friction_above_effort)),
+)
+MASS = (
+    ("mass_zero", "no mass", on_link("inertial/mass", "value", "0")),
+    ("mass_negative", "negative mass", on_link("inertial/mass", "value", "-1")),
+    ("mass_nan", "a mass that is not a number", on_link("inertial/mass", "value", "nan")),
+    ("mass_grams", "mass in grams", scaled("inertial/mass", "value", 1000.0)),
+    ("mass_tonnes", "mass in tonnes", scaled("inertial/mass", "value", 0.001)),
+    ("inertial_missing", "no inertia stated", without("inertial", of_joint=False)),
+    ("inertia_zero", "an inertia of zero", inertia_set(lambda tensor, mass: 0.0 * tensor)),
+    ("inertia_negative", "not positive definite", inertia_set(lambda tensor, mass: -tensor)),
+    (
+        "inertia_triangle",
+        "no body has it: A + B < C",
+        inertia_set(lambda tensor, mass: np.diag([1.0, 1.0, 3.0]) * np.trace(tensor) / 3.0),
+    ),
+    ("inertia_tenfold", "density forgotten", inertia_set(lambda tensor, mass: 10.0 * tensor)),
+    ("inertia_grams_mm", "g mm2 read as kg m2", inertia_set(lambda tensor, mass: 1e9 * tensor)),
+    ("inertia_identity", "the exporter's default", inertia_set(lambda tensor, mass: np.eye(3))),
+    ("inertia_about_origin", "not about the centre of mass", in_tree(about_link_origin)),
+    ("center_at_origin", "centre of mass at the hinge", on_link("inertial/origin", "xyz", "0 0 0")),
+    ("center_far", "centre of mass outside", on_link("inertial/origin", "xyz", "0.9 0.9 0.9")),
+)
+CONTACT = (
+    ("collision_missing", "no collision on a moving link", without("collision", of_joint=False)),
+    ("visual_missing", "nothing to see", without("visual", of_joint=False)),
+    ("collision_is_visual", "one hull stands for a carcass", in_tree(visual_as_collision)),
+    (
+        "collision_shifted",
+        "collision 50 mm beside the shape",
+        collision_boxes(lambda center, size: (center + np.array([0.0, 0.05, 0.0]), size)),
+    ),
+    (
+        "collision_grown",
+        "collision a tenth too large",
+        collision_boxes(lambda center, size: (center, 1.1 * size)),
+    ),
+    (
+        "collision_flat",
+        "a box of no thickness",
+        collision_boxes(lambda center, size: (center, size * (1.0, 0.0, 1.0))),
+    ),
+    (
+        "visual_path",
+        "a mesh that is not there",
+        on_link("visual/geometry/mesh", "filename", "meshes/nix.obj"),
+    ),
+    (
+        "visual_outside",
+        "a path out of the folder",
+        on_link("visual/geometry/mesh", "filename", "../../../../etc/passwd"),
+    ),
+    (
+        "visual_absolute",
+        "the maker's own disk",
+        on_link("visual/geometry/mesh", "filename", "/home/me/door.obj"),
+    ),
+    (
+        "visual_package",
+        "a package that is not here",
+        on_link("visual/geometry/mesh", "filename", "package://nix/door.obj"),
+    ),
+    (
+        "visual_scale",
+        "a mesh in millimetres",
+        on_link("visual/geometry/mesh", "scale", "0.001 0.001 0.001"),
+    ),
+)
+URDF_DEFECTS = tuple(
+    Defect(name=name, format="urdf", what=what, plant=plant)
+    for name, what, plant in (*TREE, *MOTION, *MASS, *CONTACT)
+)
