@@ -78,7 +78,6 @@ LEVELS: tuple[Level[Subject], ...] = (
         name="L2 inertia",
         needs=("L1 meshes",),
         checks=(
-            Check(ours(inertia.counted), ("inertia.density",), OURS),
             Check(inertia.densities, ("inertia.density",), SEEN),
             Check(inertia.centers, ("inertia.center", "inertia.extent"), SEEN),
             Check(inertia.integrals, ("inertia.integral",), (*SEEN, "densities")),

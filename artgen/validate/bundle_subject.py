@@ -2,7 +2,7 @@
 
 import json
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +16,7 @@ from artgen.core.errors import ArtgenError, GeometryError
 from artgen.core.mesh import TriMesh
 from artgen.core.transform import rigid
 from artgen.export.bundle import Bundle, read_bundle
-from artgen.export.layout import MANIFEST, MJCF, URDF
+from artgen.export.layout import MANIFEST, MJCF, REPORT, URDF
 from artgen.export.manifest import SCHEMA
 from artgen.validate.objfile import read_triangles
 from artgen.validate.physics import compiled_spec, read_spec
@@ -53,6 +53,10 @@ class BundleSubject(Subject):
     def lacks(self, need: str) -> str | None:
         """A bundle says everything."""
         return None
+
+    def files(self) -> Iterable[Path]:
+        """Every file of the folder but the report of an earlier validation."""
+        return (p for p in self.folder.rglob("*") if p.is_file() and p.name != REPORT)
 
     def problems(self) -> Iterator[tuple[str, str]]:
         """Of manifest, URDF and MJCF, those that cannot be read."""

@@ -8,7 +8,6 @@ import numpy as np
 from artgen.core.mesh import Floats, TriMesh
 from artgen.geometry.measure import inertia
 from artgen.validate.bounds import Bounds
-from artgen.validate.bundle_subject import BundleSubject
 from artgen.validate.report import Finding, Skipped
 from artgen.validate.stated import StatedBody
 from artgen.validate.subject import Subject, SubjectPart
@@ -63,17 +62,6 @@ def _solid_volume(subject: Subject, part: SubjectPart) -> float | None:
     return float(subject.volumes[part.name].sum())
 
 
-def counted(subject: BundleSubject) -> Iterator[Finding]:
-    """As many densities are stated as a part has bodies."""
-    for part in subject.bundle.parts:
-        if part.densities is not None and len(part.densities) != part.bodies:
-            value, bound = float(len(part.densities)), f"{part.bodies} densities, one a body"
-            cause = "the manifest was edited or is of another export"
-            yield _finding(
-                "inertia.density", part.name, value, bound, cause, "export the asset anew"
-            )
-
-
 def densities(subject: Subject) -> Iterator[Finding | Skipped]:
     """Mass over volume of each part, and the density of each of its bodies, is that of a solid."""
     low, high = subject.bounds.density_low.value, subject.bounds.density_high.value
@@ -84,6 +72,11 @@ def densities(subject: Subject) -> Iterator[Finding | Skipped]:
         if volume is None or part.mass is None:
             yield Skipped(name="inertia.density", reason=f"{part.name} states no mass or no mesh")
             continue
+        bodies = len(subject.volumes[part.name])
+        if part.densities is not None and len(part.densities) != bodies:
+            value, bound = float(len(part.densities)), f"{bodies} densities, one a body"
+            wrong, remedy = "the densities are those of another mesh", "export the asset anew"
+            yield _finding("inertia.density", part.name, value, bound, wrong, remedy)
         for value in (part.mass.mass / volume, *(part.densities or ())):
             if not low <= value <= high:
                 remedy = "weigh the mesh with its material's density"

@@ -5,8 +5,9 @@ from collections.abc import Callable, Mapping
 from artgen.validate.bounds import Bounds
 from artgen.validate.bundle_subject import BundleSubject
 from artgen.validate.subject import Source, Subject
+from artgen.validate.urdf_subject import UrdfSubject
 
-READERS: Mapping[str, Callable[..., Subject]] = {"bundle": BundleSubject}
+READERS: Mapping[str, Callable[..., Subject]] = {"bundle": BundleSubject, "urdf": UrdfSubject}
 
 
 def read_subject(source: Source, bounds: Bounds) -> Subject:

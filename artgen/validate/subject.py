@@ -1,7 +1,7 @@
 """The asset under test, whatever it was read from: parts, joints, meshes, compiled models."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -75,6 +75,10 @@ class Subject(ABC):
     @abstractmethod
     def lacks(self, need: str) -> str | None:
         """Why the source cannot say what a check needs, or None where it can."""
+
+    @abstractmethod
+    def files(self) -> Iterable[Path]:
+        """Every file that the verdict depends on, as far as they can be told."""
 
     @abstractmethod
     def problems(self) -> Iterator[tuple[str, str]]:

@@ -137,23 +137,19 @@ def test_the_command_names_every_bundle_and_exits_1(
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].split()[:2] == ["valid", ASSET]
     assert "files.file: asset.glb: missing" in "\n".join(lines)
-    assert lines[-1] == "1 of 2 bundles are valid"
+    assert lines[-1] == "1 of 2 assets are valid"
     assert "" not in lines
-
-
-def test_reports_are_written_on_request_only(bundles: Path) -> None:
-    sound = bundles / "cupboard" / "000004"
-    assert validate([str(sound)]) == 0
-    assert not (sound / "report.json").exists()
-    assert validate([str(sound), "--write"]) == 0
-    assert json.loads((sound / "report.json").read_text())["ok"] is True
-    assert validate_bundle(sound).ok  # a report does not spoil its bundle.
 
 
 def test_a_path_without_bundles_is_a_usage_error(tmp_path: Path) -> None:
     for argv in ([str(tmp_path)], [str(tmp_path / "nowhere")], []):
         with pytest.raises(UsageError):
             validate(argv)
+
+
+def test_an_unknown_check_is_a_usage_error_that_lists_the_known(bundles: Path) -> None:
+    with pytest.raises(UsageError, match=r"no check or level.*mesh\.closed"):
+        validate([str(bundles), "--check", "mesh.shut"])
 
 
 def test_equal_bundles_give_equal_reports(bundles: Path) -> None:
