@@ -4,10 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from artgen.imaging import Singles
+from artgen.transport import CLEAR
 from renders.fast.context import open_context
 from renders.fast.filtered import Blur
 from renders.fast.light import shine
 from renders.fast.rasterizer import Canvases, Programs, Rasterizer
+from renders.fast.scenes import occlusions, scene_of
 from renders.glb import read_appearance
 from renders.plan import RenderPlan
 
@@ -32,18 +34,28 @@ class FastBackend:
         Raises:
             RenderError: the GLB cannot be read, or the rig has too many lights.
         """
+        appearance = read_appearance(Path(plan.job.glb))
+        surfaces = {surface.name: surface for surface in plan.bundle.surfaces}
+        light = shine(plan.job.rig, self._blur)
+        opaque = [s for s in appearance.skins if surfaces[s.surface].transmission <= CLEAR]
+        hidden = occlusions(opaque, plan.passes.shots, plan.poses, light)
         rasterizer = Rasterizer(
             self._context,
             self._programs,
             self._canvases,
-            appearance=read_appearance(Path(plan.job.glb)),
-            surfaces={surface.name: surface for surface in plan.bundle.surfaces},
-            light=shine(plan.job.rig, self._blur),
+            appearance=appearance,
+            surfaces=surfaces,
+            light=light,
         )
         try:
+            shades = {scene: rasterizer.shade(found) for scene, found in hidden.items()}
             return [
                 rasterizer.draw(
-                    plan.cameras[shot.camera], shot.box, plan.poses[shot.state], shot.part
+                    plan.cameras[shot.camera],
+                    shot.box,
+                    plan.poses[shot.state],
+                    part=shot.part,
+                    shade=shades.get(scene_of(shot, plan.poses)),
                 )
                 for shot in plan.passes.shots
             ]

@@ -93,3 +93,33 @@ def _factors(cosine: Floats, area: Floats, alpha: float) -> NDArray[np.complex64
     weight = area * density * np.maximum(cosine, 0.0)
     weight /= weight.sum(axis=(1, 2), keepdims=True)
     return np.fft.rfft(weight, axis=2).astype(np.complex64)
+
+
+def split_sum(size: int = 32, samples: int = 256) -> NDArray[np.float32]:
+    """(size, size, 2) scale and bias of the specular color, by roughness (rows) and the cosine to
+    the eye (columns), texel middles; GGX with Smith's shadowing (Karis 2013, listing 4)."""
+    middle = (np.arange(size) + 0.5) / size
+    facing, alpha = middle[None, :, None], (middle**2)[:, None, None]
+    turn, height = _points(samples)
+    tilt = np.sqrt((1.0 - height) / (1.0 + (alpha**2 - 1.0) * height))
+    lean = np.sqrt(np.maximum(0.0, 1.0 - tilt**2))
+    across = np.sqrt(1.0 - facing**2)
+    half = np.maximum(across * lean * np.cos(turn) + facing * tilt, 1e-6)
+    out = 2.0 * half * tilt - facing
+    lit = np.maximum(out, 1e-6)
+    seen = 1.0 / (1.0 + _masked(lit, alpha) + _masked(facing, alpha))
+    weight = np.where(out > 0.0, seen * half / (tilt * facing), 0.0)
+    grazing = (1.0 - half) ** 5
+    pair = np.stack([(1.0 - grazing) * weight, grazing * weight], axis=-1)
+    return pair.mean(axis=2).astype(np.float32)
+
+
+def _points(count: int) -> tuple[Floats, Floats]:
+    """A two-dimensional low-discrepancy sequence (golden section): an angle and a number in (0, 1)."""
+    index = np.arange(count)
+    return 2.0 * np.pi * (index * 0.6180339887498949 % 1.0), (index + 0.5) / count
+
+
+def _masked(cosine: Floats, alpha: Floats) -> Floats:
+    """Smith's Lambda of GGX."""
+    return 0.5 * (np.sqrt(1.0 + alpha**2 * (1.0 / cosine**2 - 1.0)) - 1.0)

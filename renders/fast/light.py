@@ -21,6 +21,7 @@ class Shine:
     """What the shaders are told about light.
 
     Attributes:
+        around: (H, 2 H, 3) radiance of the surrounding alone.
         sky: (9, 3) radiance of a white wall under the surrounding alone, by its normal.
         corners: (L, 4, 3) m; counter-clockwise as seen by what is lit.
         radiance: (L, 3).
@@ -29,6 +30,7 @@ class Shine:
         reach: m from there to the lights.
     """
 
+    around: Floats
     sky: Floats
     corners: Floats
     radiance: Floats
@@ -56,6 +58,7 @@ def shine(rig: LightRig, blur: Blur) -> Shine:
     around = sky_radiance(rig.sky, directions(HEIGHT))
     seen = _with_lights(around, corners, radiance, middle)
     return Shine(
+        around=around,
         sky=white_wall(around),
         corners=corners,
         radiance=radiance,

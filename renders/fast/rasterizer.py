@@ -12,16 +12,32 @@ from artgen.core.surface import SurfaceSpec
 from artgen.core.transform import apply
 from artgen.imaging import Singles
 from artgen.transport import CLEAR
+from renders.fast.filtered import split_sum
 from renders.fast.light import Shine
+from renders.fast.occlusion import Occlusion, sky_factors
 from renders.fast.shaders import DEFINES, MOST_LIGHTS, OPAQUE, PANE, VERTEX
 from renders.glb import Appearance, Look, Skin
 
 Box = tuple[int, int, int, int]
-Owned = moderngl.Buffer | moderngl.Texture | moderngl.TextureArray | moderngl.VertexArray
+Owned = (
+    moderngl.Buffer
+    | moderngl.Texture
+    | moderngl.TextureArray
+    | moderngl.Texture3D
+    | moderngl.VertexArray
+)
 SAMPLES = 4
 """Coverage samples a pixel; color is computed once a pixel and triangle."""
 TILE = 64
 """px; images are drawn on canvases of whole tiles, so that few canvases serve all windows."""
+MIRRORED, SPLIT_SUM, SEEN_SKY, SEEN_LIGHTS = 0, 5, 6, 7
+"""Texture units; those between hold a surface's images."""
+UNITS = {
+    "mirrored": MIRRORED,
+    "split_sum": SPLIT_SUM,
+    "seen_sky": SEEN_SKY,
+    "seen_lights": SEEN_LIGHTS,
+}
 SRGB8 = 0x8C41
 """GL_SRGB8: the texture unit makes linear light of it, before it interpolates."""
 THROUGH = (moderngl.ONE, 0x88F9, moderngl.ZERO, 0x8589)
@@ -50,6 +66,15 @@ class Piece:
         return self.surface.transmission > CLEAR
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Shade:
+    """An `Occlusion` on the rasterizer."""
+
+    sky: moderngl.Texture3D
+    lights: moderngl.Texture3D
+    grid: tuple[float, ...]
+
+
 class Canvases:
     """Antialiased canvases by size, and what they resolve to."""
 
@@ -72,11 +97,14 @@ class Canvases:
 
 
 class Programs:
-    """Shaders by the images they read, compiled when first needed."""
+    """Shaders by the images they read, compiled when first needed, and the table they share."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._made: dict[tuple[str, ...], moderngl.Program] = {}
+        table = split_sum()
+        self.split_sum = context.texture(table.shape[:2], 2, table.tobytes(), dtype="f4")
+        self.split_sum.repeat_x = self.split_sum.repeat_y = False
 
     def opaque(self, kinds: Sequence[str]) -> moderngl.Program:
         """For a surface with images of these kinds."""
@@ -125,10 +153,30 @@ class Rasterizer:
         for item in self._owned:
             item.release()
 
+    def shade(self, found: Occlusion) -> Shade:
+        """What is in the way of light, where `draw` finds it."""
+        images = []
+        for values in (found.sky, found.lights):
+            image = self._context.texture3d(values.shape[2::-1], 4, values.tobytes(), dtype="f2")
+            image.repeat_x = image.repeat_y = image.repeat_z = False
+            self._owned.append(image)
+            images.append(image)
+        return Shade(sky=images[0], lights=images[1], grid=(*found.low, found.cell))
+
     def draw(
-        self, camera: Camera, box: Box, poses: Mapping[str, Floats], part: str | None
+        self,
+        camera: Camera,
+        box: Box,
+        poses: Mapping[str, Floats],
+        *,
+        part: str | None,
+        shade: Shade | None,
     ) -> Singles:
-        """(h, w, 4) linear, premultiplied: the window `box` of what `camera` sees."""
+        """(h, w, 4) linear, premultiplied: the window `box` of what `camera` sees.
+
+        Args:
+            part: the only part in the scene, or None for all.
+            shade: of this scene; None where nothing is opaque."""
         size = (box[2] - box[0], box[3] - box[1])
         drawn, resolved = self._canvases.of(size)
         shown = [piece for piece in self._pieces if part in (None, piece.skin.part)]
@@ -138,10 +186,16 @@ class Rasterizer:
         drawn.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
         gl.front_face = "cw"  # rows run downward, so triangles turn the other way
         gl.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        self._mirrored.use(0)
+        self._mirrored.use(MIRRORED)
+        self._programs.split_sum.use(SPLIT_SUM)
         clip = clip_from_world(camera, box, _reach(shown, camera, poses))
+        if shade is not None:
+            shade.sky.use(SEEN_SKY)
+            shade.lights.use(SEEN_LIGHTS)
         for program in {piece.program for piece in shown}:
             program["eye"] = tuple(camera.position)
+            if shade is not None and "grid" in program:
+                program["grid"] = shade.grid
         gl.cull_face = "back"
         for piece in shown:
             if not piece.is_pane:
@@ -276,7 +330,10 @@ def _light(program: moderngl.Program, light: Shine) -> None:
     _write(program, "radiance", _padded(light.radiance, MOST_LIGHTS))
     if "lights" in program:
         program["lights"] = len(light.corners)
-    program["mirrored"] = 0
+    _write(program, "open_sky", sky_factors(light).sum(axis=0))
+    for name, unit in UNITS.items():
+        if name in program:
+            program[name] = unit
 
 
 def _padded(rows: Floats, count: int) -> Floats:
@@ -300,7 +357,7 @@ def _numbers(surface: SurfaceSpec, pane: bool) -> dict[str, object]:
     bent = (surface.ior - 1.0) / (surface.ior + 1.0)
     return {
         "color": surface.color,
-        "glow": tuple(surface.emission * c for c in surface.color),
+        "glow": (surface.emission,) * 3,
         "roughness": surface.roughness,
         "metallic": surface.metallic,
         "specular": bent * bent,

@@ -2,8 +2,8 @@
 
 Diffuse: the sky by spherical harmonics, every softbox by the exact form factor of its rectangle
 (Lambert 1760; the edge integrals and the horizon by Heitz et al. 2016, the latter approximated as
-Hill 2016 does). Specular: radiance filtered by roughness, and the split sum (Karis 2013) with
-Lazarov's fit of the second factor. No shadows, no light between surfaces.
+Hill 2016 does). Specular: radiance filtered by roughness, and the split sum (Karis 2013), towards
+the lobe's dominant direction (Lagarde and de Rousiers 2014).
 """
 
 MOST_LIGHTS = 16
@@ -33,6 +33,7 @@ LIGHT = """
 #version 330
 #define MOST_LIGHTS 16
 #define TAU 6.28318530718
+#define BOUNCE 0.7
 uniform vec3 eye;
 uniform vec3 sky[9];
 uniform int lights;
@@ -40,6 +41,10 @@ uniform vec3 corners[4 * MOST_LIGHTS];
 uniform vec3 radiance[MOST_LIGHTS];
 uniform sampler2DArray mirrored;
 uniform vec4 stage;  // middle of the rig, and the distance of its lights
+uniform sampler3D seen_sky;
+uniform sampler3D seen_lights;
+uniform vec4 open_sky;
+uniform vec4 grid;  // lower corner and size of a cell
 in vec3 place;
 in vec3 normal;
 in vec2 uv;
@@ -69,14 +74,19 @@ float form_factor(int light, vec3 n) {
     return dot(first, facing) < 0.0 ? max(0.0, (size * size + dot(flux, n)) / (size + 1.0)) : 0.0;
 }
 
-vec3 shown_by_white(vec3 n) {
-    vec3 sum = sky_on(n);
-    for (int k = 0; k < lights; ++k) sum += radiance[k] * form_factor(k, n);
-    return sum;
+vec4 cell(sampler3D image, vec3 n) {
+    vec3 at = (place + n * grid.w - grid.xyz) / (grid.w * vec3(textureSize(image, 0)));
+    return textureLod(image, at, 0.0);
+}
+
+float share(vec4 seen, vec3 direction, float gradient) {
+    vec4 by = vec4(1.0, gradient * direction);
+    return clamp(dot(seen, by) / max(dot(open_sky, by), 1e-6), 0.0, 1.0);
 }
 
 vec3 mirror(vec3 direction, float roughness) {
     vec3 from = place - stage.xyz;
+    direction = normalize(direction);
     float along = dot(from, direction);
     float reach = sqrt(max(0.0, along * along - dot(from, from) + stage.w * stage.w)) - along;
     vec3 d = normalize(from + reach * direction);
@@ -96,6 +106,7 @@ uniform vec3 glow;
 uniform float roughness;
 uniform float metallic;
 uniform float specular;
+uniform sampler2D split_sum;
 #ifdef COLOR
 uniform sampler2D color_image;
 #endif
@@ -139,17 +150,26 @@ void main() {
 #endif
 #ifdef EMISSION
     emitted *= texture(emission_image, uv).rgb;
+#else
+    emitted *= color;
 #endif
     vec3 n = bent(normalize(normal));
     vec3 to_eye = normalize(eye - place);
     float facing = max(dot(n, to_eye), 1e-3);
-    vec4 fit = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float grazing = min(fit.x * fit.x, exp2(-9.28 * facing)) * fit.x + fit.y;
-    vec2 split = vec2(-1.04, 1.04) * grazing + fit.zw;
+    vec2 split = texture(split_sum, vec2(facing, rough)).rg;
+    vec4 sky_seen = cell(seen_sky, n), lights_seen = cell(seen_lights, n);
+    vec3 open = sky_on(n), arriving = open * share(sky_seen, n, 2.0);
+    for (int k = 0; k < lights; ++k) {
+        vec3 from = radiance[k] * form_factor(k, n);
+        open += from;
+        arriving += k < 4 ? from * lights_seen[k] : from;
+    }
+    vec3 shown = arriving + BOUNCE * base * (sky_seen.x / open_sky.x) * (open - arriving);
     vec3 reflected = mix(vec3(specular), base, metal) * split.x + split.y;
     vec3 diffuse = base * (1.0 - metal) * (1.0 - (specular * split.x + split.y));
-    vec3 sheen = mirror(reflect(-to_eye, n), rough);
-    light = vec4(diffuse * shown_by_white(n) + reflected * sheen + emitted, 0.0);
+    float smooth_share = (1.0 - rough) * (sqrt(1.0 - rough) + rough);
+    vec3 sheen = mirror(mix(n, reflect(-to_eye, n), smooth_share), rough);
+    light = vec4(diffuse * shown + reflected * sheen * share(sky_seen, reflect(-to_eye, n), 2.0) + emitted, 0.0);
 }
 """
 )
