@@ -36,6 +36,7 @@ def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> S
     return Sample(
         meta=_meta(bundle, plan, shading),
         cameras=_cameras(plan),
+        stated_cameras=plan.stated,
         targets=targets(
             names,
             [part.bounds for part in bundle.parts],

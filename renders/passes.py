@@ -34,57 +34,67 @@ class Passes:
 
 def planned_passes(
     names: Sequence[str],
-    vertices: Sequence[Floats],
-    poses: Sequence[Mapping[str, Floats]],
+    corners: Sequence[Floats],
+    shown: Sequence[Sequence[Mapping[str, Floats]]],
     cameras: Sequence[Camera],
     *,
     samples: int,
     part_samples: int,
 ) -> Passes:
-    """All images of T states x V cameras; a part that stands still between two states is rendered
-    once a camera.
+    """All images of T states x V cameras; a part that is posed alike in two states is rendered once
+    a camera.
 
     Args:
-        vertices: (N, 3) of each part at rest, m.
-        poses: part name to `object_from_rest`, for each state.
+        corners: (N, 3) of each part's hull at rest, m.
+        shown: part name to `object_from_rest`, for every pose that an image of state t shows: the
+            state, and those while the shutter is open.
     """
     shots: list[Shot] = []
-    rendered: dict[tuple[str, int, bytes], int] = {}
+    rendered: dict[bytes, list[int | None]] = {}
     composite, alone, boxes = [], [], []
-    for t, pose in enumerate(poses):
-        windows = [
-            [window(camera, apply(pose[n], v)) for n, v in zip(names, vertices, strict=True)]
-            for camera in cameras
-        ]
-        own: list[list[int | None]] = [[None] * len(names) for _ in cameras]
+    for t, poses in enumerate(shown):
         composite.append(tuple(range(len(shots), len(shots) + len(cameras))))
         for v, camera in enumerate(cameras):
             shots.append(_shot(len(shots), v, t, None, (0, 0, *camera.size), samples))
-        for p, name in enumerate(names):
-            for v in range(len(cameras)):
-                if not _area(windows[v][p]):
-                    continue
-                key = (name, v, np.asarray(pose[name]).tobytes())
-                if key not in rendered:
-                    rendered[key] = len(shots)
-                    shots.append(_shot(len(shots), v, t, name, windows[v][p], part_samples))
-                own[v][p] = rendered[key]
-        alone.append(tuple(tuple(row) for row in own))
-        boxes.append(tuple(tuple(row) for row in windows))
+        columns, windows_of = [], []
+        for name, points in zip(names, corners, strict=True):
+            matrices = np.array([pose[name] for pose in poses])
+            seen = windows(cameras, np.concatenate([apply(m, points) for m in matrices]))
+            key = name.encode() + matrices.tobytes()
+            if key not in rendered:
+                rendered[key] = _add(shots, seen, state=t, part=name, samples=part_samples)
+            columns.append(rendered[key])
+            windows_of.append(seen)
+        alone.append(tuple(zip(*columns, strict=True)))
+        boxes.append(tuple(zip(*windows_of, strict=True)))
     return Passes(
         shots=tuple(shots), composite=tuple(composite), alone=tuple(alone), boxes=tuple(boxes)
     )
 
 
-def window(camera: Camera, points: Floats) -> Box:
-    """The smallest whole-pixel window that holds the projection of (N, 3) points and its soft edge,
-    cut to the image; all points lie in front of the camera."""
-    pixels = camera.project(points)[:, :2]
-    low = np.floor(pixels.min(axis=0)).astype(int) - APRON
-    high = np.ceil(pixels.max(axis=0)).astype(int) + APRON
-    left, top = (int(v) for v in np.maximum(low, 0))
-    right, bottom = (int(v) for v in np.minimum(high, camera.size))
-    return (left, top, right, bottom) if right > left and bottom > top else (0, 0, 0, 0)
+def _add(
+    shots: list[Shot], seen: Sequence[Box], *, state: int, part: str, samples: int
+) -> list[int | None]:
+    """Append a shot of the part for every camera that sees it; their numbers."""
+    numbers: list[int | None] = []
+    for camera, box in enumerate(seen):
+        numbers.append(len(shots) if _area(box) else None)
+        if _area(box):
+            shots.append(_shot(len(shots), camera, state, part, box, samples))
+    return numbers
+
+
+def windows(cameras: Sequence[Camera], points: Floats) -> list[Box]:
+    """For each camera the smallest whole-pixel window that holds the projection of (N, 3) points
+    and its soft edge, cut to the image; all points lie in front of the cameras."""
+    size = np.array([camera.size for camera in cameras])
+    pixels = np.stack([camera.project(points)[:, :2] for camera in cameras])
+    low = np.maximum(np.floor(pixels.min(axis=1)).astype(int) - APRON, 0)
+    high = np.minimum(np.ceil(pixels.max(axis=1)).astype(int) + APRON, size)
+    return [
+        (left, top, right, bottom) if right > left and bottom > top else (0, 0, 0, 0)
+        for (left, top), (right, bottom) in zip(low.tolist(), high.tolist(), strict=True)
+    ]
 
 
 def _area(box: Box) -> int:
@@ -94,5 +104,5 @@ def _area(box: Box) -> int:
 
 def _shot(number: int, camera: int, state: int, part: str | None, box: Box, samples: int) -> Shot:
     return Shot(
-        file=f"{number:04d}.exr", camera=camera, state=state, part=part, box=box, samples=samples
+        file=f"{number:06d}.exr", camera=camera, state=state, part=part, box=box, samples=samples
     )

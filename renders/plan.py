@@ -1,5 +1,6 @@
 """Bundle and stream to RenderPlan: states, cameras, lights, passes; all chance is spent here."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -7,20 +8,26 @@ import numpy as np
 
 from artgen.articulation.kinematics import forward_kinematics
 from artgen.articulation.states import sample_states
+from artgen.articulation.trajectories import Track, frame_times, tracks
 from artgen.articulation.types import State
 from artgen.core.camera import Camera
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.stream import Stream
-from artgen.core.transform import apply
+from artgen.dataset.sample import Cameras
 from artgen.export import Bundle
 from artgen.export.layout import GLB
-from artgen.render_job import RenderJob
+from artgen.render_job import LightRig, RenderJob
 from artgen.transport import needed_transport
 from renders.accuracy import quality
-from renders.cameras import orbit_cameras
+from renders.cameras import placed_cameras, stated_cameras
 from renders.lights import studio_rig
 from renders.passes import Passes, planned_passes
 from renders.settings import Settings
+from renders.subject import check_size, hull_corners, loaded_meshes, moved_corners
+
+MOMENTS = 5
+"""Poses of a moving part while the shutter is open; parts ease, so straight lines between them are
+off by a hundredth of the way."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -30,6 +37,7 @@ class RenderPlan:
     Attributes:
         meshes: of the parts in the bundle's order, at rest.
         poses: part name to `object_from_rest`, for each state.
+        stated: what a user is told of the cameras, where that has errors.
     """
 
     bundle: Bundle
@@ -38,6 +46,7 @@ class RenderPlan:
     states: tuple[State, ...]
     poses: tuple[dict[str, Floats], ...]
     cameras: tuple[Camera, ...]
+    stated: Cameras | None
     passes: Passes
     job: RenderJob
 
@@ -46,54 +55,49 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
     """The plan of one asset's sample; EXR files will lie in `folder`.
 
     Raises:
-        ExportError: a mesh of the bundle cannot be read.
+        RenderError: a mesh of the bundle cannot be read, or the object's size cannot be rendered.
     """
     names = [part.name for part in bundle.parts]
-    meshes = tuple(bundle.load_mesh(name) for name in names)
-    states = drawn_states(bundle, stream.child("states"), settings.states)
+    meshes = loaded_meshes(bundle)
+    states, moments = planned_states(bundle, stream.child("states"), settings)
     poses = tuple(forward_kinematics(names[0], bundle.joints, state) for state in states)
-    points = np.concatenate(
-        [
-            apply(pose[name], mesh.vertices)
-            for pose in poses
-            for name, mesh in zip(names, meshes, strict=True)
-        ]
+    exposures = tuple(
+        tuple(forward_kinematics(names[0], bundle.joints, state) for state in open_shutter)
+        for open_shutter in moments
     )
-    cameras = orbit_cameras(
-        points,
+    shown = exposures or tuple((pose,) for pose in poses)
+    hulls = [hull_corners(mesh.vertices) for mesh in meshes]
+    corners = moved_corners(names, hulls, [pose for seen in shown for pose in seen])
+    check_size(bundle, meshes, corners)
+    cameras = placed_cameras(
+        corners,
         stream.child("cameras"),
+        settings=settings.cameras,
         views=settings.views,
         size=(settings.size, settings.size),
+        radius=bundle.radius,
+        ground=settings.ground,
     )
     paths = quality(settings.accuracy)
     passes = planned_passes(
-        names,
-        [mesh.vertices for mesh in meshes],
-        poses,
-        cameras,
-        samples=paths.samples,
-        part_samples=paths.part_samples,
+        names, hulls, shown, cameras, samples=paths.samples, part_samples=paths.part_samples
     )
-    low, high = points.min(axis=0), points.max(axis=0)
-    rig = studio_rig(
-        stream.child("lights"),
-        center=(low + high) / 2.0,
-        radius=float(np.linalg.norm(high - low) / 2.0),
-    )
+    rig = _rig(stream.child("lights"), corners)
     job = RenderJob(
         glb=str(bundle.folder.resolve() / GLB),
         folder=str(folder.resolve()),
         cameras=tuple(camera.stated for camera in cameras),
         states=poses,
         rig=rig,
-        transport=needed_transport(bundle.surfaces, rig),
+        transport=needed_transport(bundle.surfaces, rig, motion_blur=bool(exposures)),
         shots=passes.shots,
+        seed=int(stream.child("cycles").generator().integers(2**31)),
         denoise=paths.denoise,
         prefilter=paths.prefilter,
         denoise_quality=paths.denoise_quality,
         adaptive=paths.adaptive,
         bounces=paths.bounces,
-        seed=int(stream.child("cycles").generator().integers(2**31)),
+        exposures=exposures,
     )
     return RenderPlan(
         bundle=bundle,
@@ -102,12 +106,52 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         states=states,
         poses=poses,
         cameras=cameras,
+        stated=stated_cameras(
+            cameras,
+            stream.child("pose noise"),
+            settings=settings.cameras,
+            states=len(states),
+            radius=bundle.radius,
+        ),
         passes=passes,
         job=job,
     )
 
 
-def drawn_states(bundle: Bundle, stream: Stream, count: int) -> tuple[State, ...]:
-    """Rest first, then states drawn a joint; a single state is a drawn one."""
-    drawn = sample_states(bundle.joints, bundle.preconditions, stream, max(1, count - 1))
-    return tuple(drawn) if count == 1 else ({}, *drawn)
+def planned_states(
+    bundle: Bundle, stream: Stream, settings: Settings
+) -> tuple[tuple[State, ...], tuple[tuple[State, ...], ...]]:
+    """The states, and for each of them those while the shutter is open; none without motion blur.
+
+    Drawn states begin with rest, each other state drawn a joint; a single state is a drawn one.
+    """
+    if settings.motion == "trajectory":
+        moving = tracks(bundle.joints, bundle.preconditions, stream)
+        times = frame_times(settings.states)
+        shutters = [_shutter(time, settings) for time in times] if settings.motion_blur else []
+        return (
+            tuple(_state(moving, time) for time in times),
+            tuple(tuple(_state(moving, time) for time in shutter) for shutter in shutters),
+        )
+    count = max(1, settings.states - 1)
+    drawn = sample_states(bundle.joints, bundle.preconditions, stream, count)
+    return (tuple(drawn) if settings.states == 1 else ({}, *drawn)), ()
+
+
+def _state(moving: Mapping[str, Track], time: float) -> State:
+    return {name: track.at(time) for name, track in moving.items()}
+
+
+def _shutter(time: float, settings: Settings) -> list[float]:
+    """Even times while the shutter is open: from the state on, or up to it at the very end."""
+    length = settings.motion_blur / max(1, settings.states - 1)
+    start = min(time, 1.0 - length)
+    moments = [start + length * k / (MOMENTS - 1) for k in range(MOMENTS)]
+    return [time, *moments[1:]] if start == time else [*moments[:-1], time]
+
+
+def _rig(stream: Stream, corners: Floats) -> LightRig:
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return studio_rig(
+        stream, center=(low + high) / 2.0, radius=float(np.linalg.norm(high - low) / 2.0)
+    )

@@ -10,6 +10,9 @@ StateScheme = Literal["drawn", "trajectory"]
 LightScheme = Literal["studio", "area", "sky", "softboxes"]
 Extra = Literal["albedo", "roughness", "flow", "linear"]
 
+MOST_VIEWS = 1024
+"""Even spheres of views are picked from as many directions."""
+MOST_STATES = 1024
 MAX_TRAJECTORY = 32
 
 

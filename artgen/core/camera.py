@@ -89,14 +89,22 @@ def framed(
     fov: float,
     size: tuple[int, int],
     fill: float,
+    aside: tuple[float, float] = (0.0, 0.0),
+    dolly: float = 1.0,
+    principal: tuple[float, float] | None = None,
 ) -> Camera:
     """The camera along `direction` that comes as near as keeps all points within the image.
 
     Args:
         points: (N, 3) m, world.
-        direction: unit vector from the object to the eye; not vertical.
+        direction: unit vector from the object to the eye.
         fov: across the shorter side of the image, rad.
         fill: share of the image's half width and height that the points may use, in (0, 1].
+        aside: where the camera looks, beside what would center the points; m, right and down.
+        dolly: factor on the distance of the eye from the points' middle. Below 1 the points may use
+            the whole image and stop the eye at its border.
+        principal: (x, y) px of the principal point; the middle of the image unless stated. The eye
+            moves sideways against it, so that the points stay in the middle.
 
     The eye also stays `CLEARANCE` of the cloud's extent in front of the nearest point: a spike that
     points at the camera would else reach it.
@@ -105,25 +113,51 @@ def framed(
     target = (cloud.min(axis=0) + cloud.max(axis=0)) / 2.0
     toward = np.asarray(direction, float)
     turned = inverted(look_at(target + toward, target))[:3, :3]
+    local = (cloud - target) @ turned.T
     focal = min(size) / 2.0 / math.tan(fov / 2.0)
-    local = (cloud - target) @ turned.T
-    slope = fill * np.array(size) / 2.0 / focal
-    target = target + _centering(local, slope) @ turned
-    local = (cloud - target) @ turned.T
-    within = float((np.abs(local[:, :2]) / slope - local[:, 2:]).max())
+    middle = np.array(size) / 2.0
+    offset = np.zeros(2) if principal is None else (middle - np.array(principal)) / focal
+    wanted = _Sight(local, offset, fill * middle / focal, np.abs(aside))
     clear = float(CLEARANCE * np.ptp(cloud, axis=0).max() - local[:, 2].min())
-    distance = max(within, clear)
-    eye = target + distance * toward
-    return Camera(focal=focal, size=size, camera_from_world=inverted(look_at(eye, target)))
+    sight, distance = wanted, wanted.distance * dolly
+    if dolly < 1.0:
+        sight = _Sight(local, offset, middle / focal, np.abs(aside))
+        distance = max(distance, sight.distance)
+    distance = max(distance, clear)
+    right, down = sight.shift(distance) + aside
+    eye = target + np.array([right, down, -distance]) @ turned
+    pose = np.column_stack([turned, -turned @ eye])
+    return Camera(
+        focal=focal,
+        size=size,
+        camera_from_world=np.vstack([pose, (0.0, 0.0, 0.0, 1.0)]),
+        principal=principal,
+    )
 
 
-def _centering(local: Floats, slope: Floats) -> Floats:
-    """(3,) sideways move, in camera axes, after which both borders of the image hold the points
-    back equally.
+class _Sight:
+    """How far back and how far aside an eye must stand to see points in a window of the image.
 
-    A point at (x, z) needs the eye at distance >= |x - s| / slope - z; with s moved to the middle,
-    the needs of the leftmost and the rightmost point are equal.
+    A point at (x, z) is in the window of slopes `offset - half` to `offset + half` from an eye at
+    (s, -d) when x - s <= (offset + half) (z + d) and x - s >= (offset - half) (z + d). The points
+    that reach farthest either way, `high` and `low`, leave room for s while
+    2 half d >= high - low; in the middle of that room, both borders hold the points back equally.
+
+    Args:
+        local: (N, 3) m, camera axes, the origin anywhere.
+        offset: (2,) slope at the middle of the image.
+        half: (2,) slopes from there to the window's borders.
+        spare: (2,) m by which s may leave the middle of its room.
     """
-    right = (local[:, :2] / slope - local[:, 2:]).max(axis=0)
-    left = (-local[:, :2] / slope - local[:, 2:]).max(axis=0)
-    return np.array([*(slope * (right - left) / 2.0), 0.0])
+
+    def __init__(self, local: Floats, offset: Floats, half: Floats, spare: Floats) -> None:
+        across, depth = local[:, :2], local[:, 2:]
+        self._high = (across - (offset + half) * depth).max(axis=0)
+        self._low = (across - (offset - half) * depth).min(axis=0)
+        self._offset = offset
+        self.distance = float((((self._high - self._low) / 2.0 + spare) / half).max())
+
+    def shift(self, distance: float) -> Floats:
+        """(2,) the middle of the room for s, m."""
+        middle: Floats = (self._high + self._low) / 2.0 - self._offset * distance
+        return middle

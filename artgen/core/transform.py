@@ -28,14 +28,21 @@ def apply(a_from_b: Floats, points: ArrayLike) -> Floats:
     return moved
 
 
-def look_at(eye: Sequence[float], target: Sequence[float]) -> Floats:
+POLE = 1e-9
+"""Sine of the angle from the vertical below which a view has no azimuth of its own."""
+
+
+def look_at(eye: Sequence[float] | Floats, target: Sequence[float] | Floats) -> Floats:
     """`world_from_camera` of an OpenCV camera at `eye`, upright, facing `target`.
 
-    Raises ValueError through a zero norm only if the view is exactly vertical; planners avoid that.
+    A vertical view has no upright; it is turned as the view from the front (-y) that was raised or
+    lowered until it was vertical: +x is to the right.
     """
     forward = np.asarray(target, float) - np.asarray(eye, float)
     forward /= np.linalg.norm(forward)
     right = np.cross(forward, (0.0, 0.0, 1.0))
+    if np.linalg.norm(right) < POLE:
+        right = np.array([1.0, 0.0, 0.0]) - forward[0] * forward
     right /= np.linalg.norm(right)
     down = np.cross(forward, right)
     return rigid(np.stack([right, down, forward], axis=1), eye)

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from artgen.core.camera import CLEARANCE, Camera, framed, orbit_direction
+from artgen.core.transform import look_at
 
 CLOUDS = st.lists(
     st.tuples(*[st.floats(-2.0, 2.0)] * 3), min_size=4, max_size=30, unique=True
@@ -87,3 +88,46 @@ def test_a_stated_camera_has_the_same_numbers() -> None:
     stated = camera.stated
     assert (stated.focal, stated.size, stated.principal) == (80.0, (64, 48), (30.0, 25.5))
     assert np.array_equal(stated.camera_from_world, camera.camera_from_world)
+
+
+@given(CLOUDS, ANGLES, st.floats(0.2, 1.2), st.floats(-3, 3), st.floats(-3, 3))
+def test_an_offset_principal_point_leaves_the_cloud_in_the_middle(points, angles, fov, x, y):
+    """Even where the optical axis meets the image plane outside the image, as after cropping: the
+    borders hold the cloud back equally, along the axis that decides the distance as along the
+    other. 1e-6 px as above."""
+    size = (96, 48)
+    principal = (48 + x * 48, 24 + y * 24)
+    camera = framed(
+        points, direction=orbit_direction(*angles), fov=fov, size=size, fill=0.9,
+        principal=principal,
+    )  # fmt: skip
+    pixels = camera.project(points)[:, :2]
+    assert camera.center == principal
+    reach = np.stack([pixels.min(axis=0), np.array(size) - pixels.max(axis=0)])
+    assert reach.min() >= 0.05 * 48 / 2 - 1e-6
+
+
+@pytest.mark.parametrize("height", [1.0, -1.0])
+def test_a_vertical_view_is_the_front_view_raised_until_it_is_vertical(height: float) -> None:
+    """An eye 1e-6 rad off the vertical, on the front's side, is turned by 1e-6 against it."""
+    vertical = look_at((0.0, 0.0, height), (0.0, 0.0, 0.0))[:3, :3]
+    nearly = look_at((0.0, -1e-6, height), (0.0, 0.0, 0.0))[:3, :3]
+    np.testing.assert_allclose(vertical, nearly, rtol=0, atol=1.1e-6)
+    np.testing.assert_array_equal(vertical[:, 0], (1, 0, 0))
+    inside = look_at((1e-11, 1e-11, height), (0.0, 0.0, 0.0))[:3, :3]
+    np.testing.assert_allclose(inside.T @ inside, np.eye(3), rtol=0, atol=1e-15)
+    assert np.linalg.det(inside) > 0
+
+
+@given(st.floats(-math.pi, math.pi), st.floats(-1.5, 1.5), st.floats(-1e-4, 1e-4))
+def test_views_turn_continuously_away_from_the_pole(azimuth, elevation, change):
+    """Turning about the vertical by d turns the camera by d, raising it by d too: the Frobenius
+    norm of a turn by d is at most sqrt(2) d."""
+    eyes = [
+        orbit_direction(azimuth, elevation),
+        orbit_direction(azimuth + change, elevation),
+        orbit_direction(azimuth, elevation + change),
+    ]
+    still, turned, raised = (look_at(eye, (0.0, 0.0, 0.0))[:3, :3] for eye in eyes)
+    for other in (turned, raised):
+        assert np.linalg.norm(other - still) <= math.sqrt(2) * abs(change) + 1e-14
