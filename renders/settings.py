@@ -1,8 +1,12 @@
 """Settings: how a sample is rendered, and the named sets that ART trains on."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from operator import attrgetter
+from typing import Any, Literal, get_args
+
+from artgen.core.errors import UsageError
 
 Backend = Literal["cycles", "fast"]
 CameraScheme = Literal["orbit", "ring", "sphere", "hemisphere"]
@@ -94,3 +98,76 @@ PRESETS: Mapping[str, Settings] = {
     "trajectory": Settings(views=1, states=16, motion="trajectory"),
 }
 """What ART trains on: V = 4, T = 2; V = 1, T = 2; articulated object sequences."""
+
+BOUNDS: Mapping[str, tuple[float, float, str]] = {
+    "views": (1, MOST_VIEWS, "cameras"),
+    "states": (1, MOST_STATES, "joint states"),
+    "size": (16, 8192, "px"),
+    "motion_blur": (0, 1, "of a state's interval"),
+    "cameras.look_at": (0, 10, "radii of the object"),
+    "cameras.dolly": (0, 0.95, "of the distance"),
+    "cameras.principal": (0, 3, "widths of the image"),
+    "cameras.rotation_noise": (0, 1, "rad"),
+    "cameras.position_noise": (0, 1, "radii of the object"),
+    "sensor.exposure": (0, 10, "stops"),
+    "sensor.white_balance": (0, 0.9, "of a channel"),
+    "sensor.noise": (0, 128, "codes of 255"),
+    "sensor.blur": (0, 64, "px"),
+    "sensor.jpeg": (0, 100, "quality"),
+}
+"""Option to (least, greatest, unit); outside, nobody means it."""
+FOV_BOUNDS = (0.02, 2.8)
+"""rad: lenses of 1800 mm and 3 mm on a square of 35 mm film's height."""
+NAMES: Mapping[str, tuple[str, ...]] = {
+    "backend": get_args(Backend),
+    "motion": get_args(StateScheme),
+    "light": get_args(LightScheme),
+    "cameras.scheme": get_args(CameraScheme),
+}
+
+
+def checked(settings: Settings) -> Settings:
+    """The settings, if they can be rendered.
+
+    Raises:
+        UsageError: an option is out of bounds, or two contradict each other; told by the option's
+            name, what was found and what was expected.
+    """
+    for option, (least, greatest, unit) in BOUNDS.items():
+        value = attrgetter(option)(settings)
+        if not least <= value <= greatest:
+            raise _unfit(option, value, f"{least:g} to {greatest:g} {unit}")
+    for option, known in NAMES.items():
+        if (value := attrgetter(option)(settings)) not in known:
+            raise _unfit(option, value, f"one of {', '.join(known)}")
+    _check_fov(settings.cameras.fov)
+    _check_extras(settings.extras)
+    if settings.motion == "trajectory" and not 2 <= settings.states <= MAX_TRAJECTORY:
+        raise _unfit("states", settings.states, f"2 to {MAX_TRAJECTORY} frames of a trajectory")
+    if settings.motion_blur and settings.motion != "trajectory":
+        raise _unfit(
+            "motion_blur", settings.motion_blur, "0, or --motion trajectory: drawn states have no "
+            "motion between them"
+        )  # fmt: skip
+    return settings
+
+
+def _check_fov(fov: tuple[float, float]) -> None:
+    least, greatest = fov
+    if not FOV_BOUNDS[0] <= least <= greatest <= FOV_BOUNDS[1]:
+        bounds = f"from {FOV_BOUNDS[0]:g} to {FOV_BOUNDS[1]:g} rad across the image"
+        degrees = ", ".join(f"{math.degrees(value):.4g}" for value in fov)
+        raise _unfit(
+            "cameras.fov", f"{least:g} {greatest:g}", f"a least and a greatest {bounds}; "
+            f"these are {degrees} degrees"
+        )  # fmt: skip
+
+
+def _check_extras(extras: tuple[str, ...]) -> None:
+    known = get_args(Extra)
+    if len(set(extras)) != len(extras) or not set(extras) <= set(known):
+        raise _unfit("extras", " ".join(extras), f"each at most once of {', '.join(known)}")
+
+
+def _unfit(option: str, found: Any, expected: str) -> UsageError:
+    return UsageError(f"--{option.replace('_', '-')} {found}: expected {expected}")
