@@ -115,7 +115,7 @@ def split_sum(size: int = 32, samples: int = 256) -> NDArray[np.float32]:
 
 
 def _points(count: int) -> tuple[Floats, Floats]:
-    """A two-dimensional low-discrepancy sequence (golden section): an angle and a number in (0, 1)."""
+    """Even points: an angle, which steps by the golden section, and a number in (0, 1)."""
     index = np.arange(count)
     return 2.0 * np.pi * (index * 0.6180339887498949 % 1.0), (index + 0.5) / count
 

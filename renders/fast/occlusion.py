@@ -22,6 +22,8 @@ MARGIN = 1.5
 OPACITY = 1.5
 """A cell with surface area a, in faces of a cell, stops 1 - exp(-OPACITY a^2): 78 % for one sheet,
 31 % for a wire that shows half a face."""
+SKY = 4
+"""Numbers a cell keeps of the sky: the mean and a gradient."""
 SHADOWED = 4
 """Lights that cast shadows: as many as a texel has channels."""
 FACES = [(s * (k == 0), s * (k == 1), s * (k == 2)) for k in range(3) for s in (-1.0, 1.0)]
@@ -29,13 +31,15 @@ CORNERS = [tuple(s / np.sqrt(3.0) for s in signs) for signs in itertools.product
 AROUND: Floats = np.array([*FACES, *CORNERS])
 """(14, 3) directions of a quadrature of degree 5 on the sphere (Abramowitz and Stegun 25.4.65)."""
 SHARE: Floats = np.array([1 / 15] * 6 + [3 / 40] * 8)
+R2 = (0.7548776662466927, 0.5698402909980532)
+"""Inverse powers of the plastic number: steps that fill the unit square evenly."""
 SPREAD = 0.3
 """Where on a softbox its four sample points lie, in sides from its middle."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Cloud:
-    """Points that stand for surfaces: (N, 3) m, and the (N,) area of each, m2."""
+    """Points that stand for surfaces: (3, N) m, and the (N,) area of each, m2."""
 
     points: Floats
     areas: Floats
@@ -59,34 +63,27 @@ class Occlusion:
 
 
 def strewn(corners: Floats, spacing: float) -> Cloud:
-    """Points on triangles (F, 3, 3), no farther apart than `spacing` m, each with its share of
-    area."""
+    """Points on triangles (F, 3, 3), one per `spacing`^2 m2 and at least one a triangle.
+
+    Within a triangle they follow Roberts' R2 sequence, folded from the square to the triangle, so
+    that slivers get their points along their length.
+    """
     a, b, c = corners.transpose(1, 0, 2)
-    sides = np.linalg.norm(np.stack([b - a, c - b, a - c]), axis=2).max(axis=0)
     area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    steps = np.maximum(1, np.ceil(sides / spacing)).astype(int)
-    points, areas = [], []
-    for count in np.unique(steps):
-        own = steps == count
-        weights = _middles(count)
-        points.append(np.einsum("wk,fkd->fwd", weights, corners[own]).reshape(-1, 3))
-        areas.append(np.repeat(area[own] / len(weights), len(weights)))
-    return Cloud(points=np.concatenate(points), areas=np.concatenate(areas))
-
-
-def _middles(count: int) -> Floats:
-    """(count^2, 3) barycentric middles of the small triangles that edges in `count` steps make."""
-    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(count), np.arange(count)))
-    up, down = i + j < count, i + j < count - 1
-    first = np.concatenate([i[up] + 1 / 3, i[down] + 2 / 3])
-    second = np.concatenate([j[up] + 1 / 3, j[down] + 2 / 3])
-    return np.stack([first, second, count - first - second], axis=1) / count
+    counts = np.ceil(area / spacing**2).astype(np.intp) + (area == 0.0)
+    owner = np.repeat(np.arange(len(corners)), counts)
+    index = np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
+    u, v = (0.5 + index * R2[0]) % 1.0, (0.5 + index * R2[1]) % 1.0
+    over = u + v > 1.0
+    u, v = np.where(over, 1.0 - u, u), np.where(over, 1.0 - v, v)
+    points = a[owner] + u[:, None] * (b - a)[owner] + v[:, None] * (c - a)[owner]
+    return Cloud(points=np.ascontiguousarray(points.T), areas=(area / counts)[owner])
 
 
 def occlusion(clouds: Sequence[Cloud], light: Shine, *, cells: int) -> list[Occlusion]:
     """One grid a scene, all of one shape; `cells` is how many a grid has, about."""
-    low = np.stack([cloud.points.min(axis=0) for cloud in clouds])
-    extent = np.stack([np.ptp(cloud.points, axis=0) for cloud in clouds])
+    low = np.stack([cloud.points.min(axis=1) for cloud in clouds])
+    extent = np.stack([np.ptp(cloud.points, axis=1) for cloud in clouds])
     size, shape = _fitted(extent, cells)
     low = low - (shape * size[:, None] - extent) / 2.0
     opaque = np.stack(
@@ -95,8 +92,11 @@ def occlusion(clouds: Sequence[Cloud], light: Shine, *, cells: int) -> list[Occl
             for k, cloud in enumerate(clouds)
         ]
     )
-    seen = np.stack([swept(opaque, direction) for direction in AROUND])
-    sky = np.einsum("dszyx,dk->szyxk", seen, sky_factors(light).astype(np.float32))
+    sky = np.zeros((SKY, *opaque.shape), np.float32)
+    for direction, factors in zip(AROUND, sky_factors(light).astype(np.float32), strict=True):
+        seen = swept(opaque, direction)
+        for channel, factor in zip(sky, factors, strict=True):
+            channel += factor * seen
     lights = np.ones((*opaque.shape, SHADOWED), np.float32)
     for k, (place, _) in enumerate(zip(light.corners, light.radiance, strict=True)):
         if k < SHADOWED:
@@ -105,7 +105,7 @@ def occlusion(clouds: Sequence[Cloud], light: Shine, *, cells: int) -> list[Occl
         Occlusion(
             low=low[k],
             cell=float(size[k]),
-            sky=sky[k].astype(np.float16),
+            sky=np.moveaxis(sky[:, k], 0, -1).astype(np.float16),
             lights=lights[k].astype(np.float16),
         )
         for k in range(len(clouds))
@@ -133,8 +133,8 @@ def _fitted(extent: Floats, cells: int) -> tuple[Floats, NDArray[np.intp]]:
 
 def _opacity(cloud: Cloud, low: Floats, size: float, shape: NDArray[np.intp]) -> Singles:
     """(X, Y, Z) share of light that a cell stops."""
-    place = ((cloud.points - low) / size).astype(np.intp)
-    flat = np.ravel_multi_index(tuple(place.T), tuple(shape), mode="clip")
+    x, y, z = ((cloud.points - low[:, None]) / size).astype(np.intp)
+    flat = (x * shape[1] + y) * shape[2] + z
     area = np.bincount(flat, weights=cloud.areas, minlength=int(shape.prod())) / size**2
     return (-np.expm1(-OPACITY * area**2)).reshape(shape).astype(np.float32)
 
@@ -161,20 +161,26 @@ def swept(opaque: Singles, direction: Floats) -> Singles:
         layers = layers[::-1]
     shift = [float(direction[axis] / abs(direction[main])) for axis in others]
     arrived = np.ones_like(layers)
+    _, scenes, rows, columns = layers.shape
+    padded = np.ones((scenes, rows + 2, columns + 2), np.float32)
+    clear = 1.0 - layers
     for k in range(1, len(layers)):
-        arrived[k] = _shifted(arrived[k - 1] * (1.0 - layers[k - 1]), *shift)
+        np.multiply(arrived[k - 1], clear[k - 1], out=padded[:, 1:-1, 1:-1])
+        _read_shifted(padded, *shift, arrived[k])
     if direction[main] > 0.0:
         arrived = arrived[::-1]
     return arrived.transpose(np.argsort(order))
 
 
-def _shifted(layer: Singles, a: float, b: float) -> Singles:
-    """(S, A, B) read at (a, b) cells further, each within [-1, 1]; 1 outside."""
-    _, rows, columns = layer.shape
-    padded = np.pad(layer, ((0, 0), (1, 1), (1, 1)), constant_values=1.0)
+def _read_shifted(padded: Singles, a: float, b: float, out: Singles) -> None:
+    """Fill (S, A, B) from (S, A + 2, B + 2), which has a border, (a, b) cells further on, each
+    within [-1, 1]."""
+    _, rows, columns = out.shape
     i, j = 1 + int(np.floor(a)), 1 + int(np.floor(b))
     s, t = np.float32(a - np.floor(a)), np.float32(b - np.floor(b))
-    one = padded[:, i : i + rows]
-    mixed = one if not s else one * (1 - s) + padded[:, i + 1 : i + 1 + rows] * s
-    first = mixed[:, :, j : j + columns]
-    return first if not t else first * (1 - t) + mixed[:, :, j + 1 : j + 1 + columns] * t
+    mixed = padded[:, i : i + rows]
+    if s:
+        mixed = mixed + s * (padded[:, i + 1 : i + 1 + rows] - mixed)
+    out[:] = mixed[:, :, j : j + columns]
+    if t:
+        out += t * (mixed[:, :, j + 1 : j + 1 + columns] - out)

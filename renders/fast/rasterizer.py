@@ -103,7 +103,9 @@ class Programs:
         self._context = context
         self._made: dict[tuple[str, ...], moderngl.Program] = {}
         table = split_sum()
-        self.split_sum = context.texture(table.shape[:2], 2, table.tobytes(), dtype="f4")
+        self.split_sum = context.texture(
+            (table.shape[1], table.shape[0]), 2, table.tobytes(), dtype="f4"
+        )
         self.split_sum.repeat_x = self.split_sum.repeat_y = False
 
     def opaque(self, kinds: Sequence[str]) -> moderngl.Program:
@@ -157,7 +159,8 @@ class Rasterizer:
         """What is in the way of light, where `draw` finds it."""
         images = []
         for values in (found.sky, found.lights):
-            image = self._context.texture3d(values.shape[2::-1], 4, values.tobytes(), dtype="f2")
+            deep, high, wide, _ = values.shape
+            image = self._context.texture3d((wide, high, deep), 4, values.tobytes(), dtype="f2")
             image.repeat_x = image.repeat_y = image.repeat_z = False
             self._owned.append(image)
             images.append(image)

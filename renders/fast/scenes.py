@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from artgen.core.mesh import Floats
-from artgen.core.transform import apply
 from artgen.render_job import Shot
 from renders.fast.light import Shine
 from renders.fast.occlusion import Cloud, Occlusion, occlusion, strewn
@@ -15,7 +14,7 @@ WHOLE_CELLS = 48**3
 """Cells of a grid around all parts: 15 to 30 mm wide for furniture."""
 PART_CELLS = 20**3
 """Cells of a grid around one part."""
-FINENESS = 64.0
+FINENESS = 48.0
 """Points across the longest side of a part."""
 TOGETHER = 16
 """Grids computed at once, which bounds memory."""
@@ -77,9 +76,14 @@ def _posed(
     if not shown:
         return None
     return Cloud(
-        points=np.concatenate([apply(poses[name], clouds[name].points) for name in shown]),
+        points=np.concatenate([_moved(clouds[name].points, poses[name]) for name in shown], axis=1),
         areas=np.concatenate([clouds[name].areas for name in shown]),
     )
+
+
+def _moved(points: Floats, pose: Floats) -> Floats:
+    """(3, N) points after a rigid motion."""
+    return np.asarray(pose[:3, :3] @ points + pose[:3, 3:])
 
 
 def _batches(scenes: Sequence[Scene]) -> Iterator[Sequence[Scene]]:

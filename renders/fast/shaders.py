@@ -169,7 +169,8 @@ void main() {
     vec3 diffuse = base * (1.0 - metal) * (1.0 - (specular * split.x + split.y));
     float smooth_share = (1.0 - rough) * (sqrt(1.0 - rough) + rough);
     vec3 sheen = mirror(mix(n, reflect(-to_eye, n), smooth_share), rough);
-    light = vec4(diffuse * shown + reflected * sheen * share(sky_seen, reflect(-to_eye, n), 2.0) + emitted, 0.0);
+    sheen *= share(sky_seen, reflect(-to_eye, n), 2.0);
+    light = vec4(diffuse * shown + reflected * sheen + emitted, 0.0);
 }
 """
 )
