@@ -43,10 +43,12 @@ class LinkMass:
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FileJoint:
     """A joint as a file states it: `parent_from_joint` (4, 4) at rest, the axis in the joint's
-    frame, which is the child's."""
+    frame, which is the child's; `anchor` (3,) is a point on the axis in the object frame, the
+    frame's origin if None."""
 
     stated: StatedJoint
     parent_from_joint: Floats
+    anchor: Floats | None = None
     spring: Spring | None = None
     mimic: Mimic | None = None
 
@@ -61,10 +63,13 @@ class Assembly:
 
 
 def assembled(
-    links: Sequence[str], masses: Mapping[str, LinkMass], joints: Sequence[FileJoint]
+    links: Sequence[str],
+    masses: Mapping[str, LinkMass],
+    joints: Sequence[FileJoint],
+    base: Floats | None = None,
 ) -> Assembly:
     """Parts and joints; links that fixed joints connect become one part, named by the one nearest
-    to the base.
+    to the base. `base` is the pose (4, 4) of the first link in the object frame, none if None.
 
     Raises:
         KinematicError: the joints make no tree, or a joint's numbers make no joint.
@@ -72,7 +77,7 @@ def assembled(
     order = _parents_first(links, joints)
     children = {joint.stated.child for joint in order}
     root = next(name for name in links if name not in children)
-    placed = {root: Link(part=root, object_from_link=np.eye(4))}
+    placed = {root: Link(part=root, object_from_link=np.eye(4) if base is None else base)}
     moving = []
     for joint in order:
         stated, parent = joint.stated, placed[joint.stated.parent]
@@ -118,7 +123,7 @@ def _joint(joint: FileJoint, parent: str, pose: Floats) -> Joint:
         parent=parent,
         child=stated.child,
         axis=vector(axis / np.linalg.norm(axis)),
-        origin=vector(pose[:3, 3]),
+        origin=vector(pose[:3, 3] if joint.anchor is None else joint.anchor),
         limit=Limit(lower=stated.lower, upper=stated.upper) if limited else None,
         friction=stated.friction or 0.0,
         damping=stated.damping or 0.0,
