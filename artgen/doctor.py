@@ -13,7 +13,7 @@ import psutil
 import tyro
 from rich.console import Console
 
-from artgen.system_libraries import debian_packages, missing_libraries
+from artgen.system_libraries import RASTERIZER_PACKAGES, debian_packages, missing_libraries
 
 PINNED = ("bpy", "numpy", "manifold3d", "trimesh", "xatlas", "mujoco-core", "usd-core")
 DISK_GB = 2.0
@@ -24,11 +24,16 @@ MEMORY_GB = 2.0
 
 @dataclass(frozen=True)
 class Finding:
-    """One line of the report; `remedy` is empty when all is well."""
+    """One line of the report; `remedy` is empty when all is well.
+
+    Attributes:
+        needed: False where `make generate` works without it.
+    """
 
     subject: str
     state: str
     remedy: str = ""
+    needed: bool = True
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +51,8 @@ def doctor(argv: Sequence[str]) -> int:
     """Check the machine and say how to mend what is wrong."""
     command = tyro.cli(Doctor, args=argv, prog="artgen doctor")
     if command.mend:
-        mend_libraries(missing_libraries())
+        rasterizer = () if _rasterizer_error() is None else RASTERIZER_PACKAGES
+        install_packages([*debian_packages(missing_libraries()), *rasterizer])
     findings = examine(command.folder)
     console = Console()
     for finding in findings:
@@ -54,7 +60,7 @@ def doctor(argv: Sequence[str]) -> int:
         console.print(f"{mark} {finding.subject}: {finding.state}", highlight=False)
         if finding.remedy:
             console.print(f"   -> {finding.remedy}", highlight=False)
-    broken = sum(bool(finding.remedy) for finding in findings)
+    broken = sum(bool(finding.remedy) and finding.needed for finding in findings)
     console.print("ready" if not broken else f"{broken} to mend", highlight=False)
     return 2 if broken else 0
 
@@ -66,6 +72,7 @@ def examine(folder: Path) -> list[Finding]:
         _packages,
         _libraries,
         _blender,
+        _rasterizer,
         lambda: _disk(folder),
         _memory,
     ]
@@ -89,16 +96,14 @@ def _packages() -> Finding:
     return Finding("packages", ", ".join(found), remedy)
 
 
-def mend_libraries(libraries: Sequence[str]) -> None:
-    """Install the packages of missing libraries when root; otherwise leave that to the report."""
-    if not libraries or os.geteuid() != 0 or shutil.which("apt-get") is None:
+def install_packages(packages: Sequence[str]) -> None:
+    """Install what is missing when root; otherwise leave that to the report."""
+    if not packages or os.geteuid() != 0 or shutil.which("apt-get") is None:
         return
-    Console(stderr=True).print(
-        f"installing {' '.join(debian_packages(libraries))}", highlight=False
-    )
+    Console(stderr=True).print(f"installing {' '.join(packages)}", highlight=False)
     subprocess.run(["apt-get", "update", "-qq"], check=False)
     subprocess.run(
-        ["apt-get", "install", "-qq", "-y", "--no-install-recommends", *debian_packages(libraries)],
+        ["apt-get", "install", "-qq", "-y", "--no-install-recommends", *packages],
         env={**os.environ, "DEBIAN_FRONTEND": "noninteractive"},
         check=False,
     )
@@ -128,6 +133,32 @@ def _blender() -> Finding:
         return Finding("Blender module", f"{probe.stdout.split()[0]} imports")
     lines = probe.stderr.strip().splitlines() or [f"exit code {probe.returncode}"]
     return Finding("Blender module", lines[-1], "mend the libraries above, then `make install`")
+
+
+def _rasterizer() -> Finding:
+    error = _rasterizer_error()
+    if error is None:
+        return Finding("fast backend", "software OpenGL opens")
+    packages = " ".join(RASTERIZER_PACKAGES)
+    return Finding(
+        "fast backend",
+        error,
+        f"sudo apt-get install -y {packages}   (or, as root, artgen doctor --mend)",
+        needed=False,
+    )
+
+
+def _rasterizer_error() -> str | None:
+    """Open a context in a process of its own, as a broken driver may take its process with it."""
+    probe = subprocess.run(
+        [sys.executable, "-c", "from renders.fast.context import open_context as o; o(threads=1)"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if probe.returncode == 0:
+        return None
+    return (probe.stderr.strip().splitlines() or [f"exit code {probe.returncode}"])[-1]
 
 
 def _disk(folder: Path) -> Finding:

@@ -29,6 +29,8 @@ DEBIAN_PACKAGES = {
     "libdbus-1": "libdbus-1-3",
 }
 """Debian 12's package for each library that Blender's module links to."""
+RASTERIZER_PACKAGES = ("libegl1", "libgl1-mesa-dri")
+"""Debian's packages for OpenGL in software without a display."""
 
 
 def missing_libraries() -> list[str]:

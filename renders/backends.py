@@ -1,6 +1,6 @@
 """Who makes the pictures of a plan: Cycles in a Blender process, or the fast rasterizer here."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol, overload
 
@@ -8,6 +8,7 @@ from artgen.core.errors import RenderError
 from artgen.core.jsonio import plain
 from artgen.imaging import Singles, read_exr
 from artgen.worker import BlenderWorker
+from renders.fast.backend import FastBackend
 from renders.plan import RenderPlan
 
 CYCLES = "cycles"
@@ -81,3 +82,10 @@ class ExrImages(Sequence[Singles]):
                 f"{right - left} x {bottom - top}; Blender rounded the window's border"
             )
         return image
+
+
+BACKENDS: Mapping[str, Callable[[Path, int], Backend]] = {
+    CYCLES: lambda log, threads: CyclesBackend(BlenderWorker(log, threads=threads)),
+    "fast": lambda _, threads: FastBackend(threads=threads),
+}
+"""By `Settings.backend`: from a log file and a number of threads to a backend of this process."""

@@ -15,9 +15,8 @@ from artgen.export.layout import MANIFEST
 from artgen.export.manifest import versions
 from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
-from artgen.worker import BlenderWorker
 from renders.asset import render_asset
-from renders.backends import Backend, CyclesBackend
+from renders.backends import BACKENDS, Backend
 from renders.settings import Settings
 
 ASSET_TIMEOUT_S = 3600.0
@@ -93,7 +92,7 @@ def run_tasks(
         _task_in_worker,
         workers=processes,
         initializer=_open_worker,
-        initargs=(folder, max(1, workers // processes)),
+        initargs=(folder, tasks[0].settings.backend, max(1, workers // processes)),
         timeout_s=ASSET_TIMEOUT_S,
         lost=lambda task, cause: Rendered(asset_id=task.asset_id, message=cause),
     )
@@ -123,10 +122,10 @@ _worker: tuple[Backend, Path] | None = None
 """Of this process, with its scratch folder; set once by the pool's initializer."""
 
 
-def _open_worker(folder: RunFolder, threads: int) -> None:
+def _open_worker(folder: RunFolder, backend: str, threads: int) -> None:
     global _worker
     log_file = folder.logs / f"blender-render-{os.getpid()}.log"
-    _worker = CyclesBackend(BlenderWorker(log_file, threads=threads)), scratch(folder)
+    _worker = BACKENDS[backend](log_file, threads), scratch(folder)
 
 
 def _task_in_worker(task: RenderTask) -> Rendered:

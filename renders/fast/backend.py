@@ -23,7 +23,7 @@ class FastBackend:
     shading = SHADING
 
     def __init__(self, *, threads: int = 1) -> None:
-        self._context = open_context(threads)
+        self._context = open_context(threads=threads)
         self._programs = Programs(self._context)
         self._canvases = Canvases(self._context)
         self._blur = Blur()

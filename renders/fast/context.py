@@ -7,14 +7,13 @@ from typing import Any
 import moderngl
 
 from artgen.core.errors import UsageError
+from artgen.system_libraries import RASTERIZER_PACKAGES
 
-PACKAGES = ("libegl1", "libgl1-mesa-dri")
-"""Debian's packages of what the context needs."""
 CONTEXT: dict[str, Any] = {"require": 330, "standalone": True, "backend": "egl"}
 VENDOR = Path("/usr/share/glvnd/egl_vendor.d/50_mesa.json")
 
 
-def open_context(threads: int) -> moderngl.Context:
+def open_context(*, threads: int) -> moderngl.Context:
     """A context of this process; equal input gives equal pixels for any number of threads.
 
     A graphics card would round otherwise than the next one, so software is asked for even where
@@ -30,8 +29,9 @@ def open_context(threads: int) -> moderngl.Context:
     try:
         context = moderngl.create_context(**CONTEXT)
     except Exception as error:  # moderngl and its loader raise bare Exception
+        packages = " ".join(RASTERIZER_PACKAGES)
         raise UsageError(
             f"the fast backend needs OpenGL through EGL, which this machine lacks ({error}); "
-            f"sudo apt-get install -y {' '.join(PACKAGES)}   (or, as root, artgen doctor --mend)"
+            f"sudo apt-get install -y {packages}   (or, as root, artgen doctor --mend)"
         ) from error
     return context

@@ -159,20 +159,20 @@ def swept(opaque: Singles, direction: Floats) -> Singles:
     layers = np.ascontiguousarray(opaque.transpose(order))
     if direction[main] > 0.0:
         layers = layers[::-1]
-    shift = [float(direction[axis] / abs(direction[main])) for axis in others]
+    first, second = (float(direction[axis] / abs(direction[main])) for axis in others)
     arrived = np.ones_like(layers)
     _, scenes, rows, columns = layers.shape
     padded = np.ones((scenes, rows + 2, columns + 2), np.float32)
     clear = 1.0 - layers
     for k in range(1, len(layers)):
         np.multiply(arrived[k - 1], clear[k - 1], out=padded[:, 1:-1, 1:-1])
-        _read_shifted(padded, *shift, arrived[k])
+        _read_shifted(padded, first, second, out=arrived[k])
     if direction[main] > 0.0:
         arrived = arrived[::-1]
     return arrived.transpose(np.argsort(order))
 
 
-def _read_shifted(padded: Singles, a: float, b: float, out: Singles) -> None:
+def _read_shifted(padded: Singles, a: float, b: float, *, out: Singles) -> None:
     """Fill (S, A, B) from (S, A + 2, B + 2), which has a border, (a, b) cells further on, each
     within [-1, 1]."""
     _, rows, columns = out.shape
