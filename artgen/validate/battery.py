@@ -2,7 +2,17 @@
 
 from collections.abc import Callable
 
-from artgen.validate import dynamics, files, inertia, mesh, models, motion, semantics, structure
+from artgen.validate import (
+    driven,
+    dynamics,
+    files,
+    inertia,
+    mesh,
+    models,
+    motion,
+    semantics,
+    structure,
+)
 from artgen.validate.bundle_subject import BundleSubject
 from artgen.validate.levels import Check, Level, Said
 from artgen.validate.subject import Subject
@@ -133,6 +143,13 @@ LEVELS: tuple[Level[Subject], ...] = (
     Level(
         name="L6 dynamics",
         needs=("L4 clearance", "L3 masses"),
-        checks=(Check(dynamics.settles, ("dynamics.settle",)),),
+        checks=(
+            Check(dynamics.settles, ("dynamics.settle",)),
+            Check(ours(dynamics.holds), ("dynamics.hold",), OURS),
+            Check(driven.opens, ("dynamics.open",)),
+            Check(driven.closes, ("dynamics.close",)),
+            Check(driven.stops, ("dynamics.stop",)),
+            Check(driven.conserves, ("dynamics.energy",)),
+        ),
     ),
 )

@@ -1,18 +1,24 @@
-"""L6: left alone, opened, closed and swung, the object does what its joints promise."""
+"""L6: left alone, joints stay where friction, springs and stops hold them."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping, Sequence
 
 import mujoco
 import numpy as np
 
+from artgen.articulation.types import Joint
 from artgen.core.mesh import Floats
 from artgen.validate.bounds import Bounds
+from artgen.validate.bundle_subject import BundleSubject
+from artgen.validate.physics import simulating, warnings_of
 from artgen.validate.report import Finding
 from artgen.validate.subject import Subject
 
+CONTACT = int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
 SETTLE_SECONDS = 2.0
 """Long enough for friction creep and for a part that is not held to swing away."""
+HELD: Mapping[str, Sequence[str]] = {"laptop": ("lid",), "dishwasher": ("door",)}
+"""Category to the labels of parts that stay at every angle: friction barrels, counterbalances."""
+HELD_POSES = 21
 
 
 def settles(subject: Subject) -> Iterator[Finding]:
@@ -21,12 +27,12 @@ def settles(subject: Subject) -> Iterator[Finding]:
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     allowed = drift_bound(model, data, subject.bounds)
-    with contact_as_needed(model, data):
+    # Contact is most of a step's time; where nothing touches at rest, it cannot act there.
+    off = CONTACT if data.ncon == 0 else 0
+    with simulating(model, off=off):
         mujoco.mj_step(model, data, nstep=round(SETTLE_SECONDS / model.opt.timestep))
-    for number, warning in enumerate(data.warning):
-        if warning.number > 0:
-            name = mujoco.mjtWarning(number).name
-            yield _settle_finding("simulation", name, "no warning", "the simulation is unstable")
+    for name in warnings_of(data):
+        yield _settle_finding("simulation", name, "no warning", "the simulation is unstable")
     drift = np.abs(data.qpos)
     for joint in subject.joints:
         number = model.joint(joint.name).id
@@ -36,22 +42,11 @@ def settles(subject: Subject) -> Iterator[Finding]:
             yield _settle_finding(joint.name, found, f"<= {bound:.3g} rad or m", cause)
 
 
-@contextmanager
-def contact_as_needed(model: mujoco.MjModel, data: mujoco.MjData) -> Iterator[None]:
-    """Contact is most of a step's time; where nothing touches at rest, it cannot act there."""
-    flags = model.opt.disableflags
-    if data.ncon == 0:
-        model.opt.disableflags = flags | mujoco.mjtDisableBit.mjDSBL_CONTACT
-    try:
-        yield
-    finally:
-        model.opt.disableflags = flags
-
-
 def _settle_finding(part: str, value: float | str, bound: str, cause: str) -> Finding:
     return Finding(
         check="dynamics.settle",
         part=part,
+        joint=None if part == "simulation" else part,
         value=value,
         bound=bound,
         cause=f"after {SETTLE_SECONDS:g} s: {cause}",
@@ -81,3 +76,37 @@ def drift_bound(model: mujoco.MjModel, data: mujoco.MjData, bounds: Bounds) -> F
 def _softness(solimp: Floats) -> Floats:
     """(1 - d) / d at the softest impedance d of each constraint."""
     return np.asarray((1.0 - solimp[:, 0]) / solimp[:, 0])
+
+
+def holds(subject: BundleSubject) -> Iterator[Finding]:
+    """Parts that must stay where they are put have friction for the load of gravity and spring, at
+    every angle."""
+    model, bound = subject.simulated, subject.bounds.hold_margin
+    data = mujoco.MjData(model)
+    labels = HELD.get(subject.bundle.category, ())
+    held = {part.name for part in subject.parts if part.label in labels}
+    for joint in subject.joints:
+        if joint.child not in held or joint.limit is None:
+            continue
+        path = np.linspace(joint.limit.lower, joint.limit.upper, HELD_POSES)[1:-1]
+        share, q = min((joint.friction / max(_load(model, data, joint, q), 1e-12), q) for q in path)
+        if share < bound.value:
+            yield Finding(
+                check="dynamics.hold",
+                part=joint.child,
+                joint=joint.name,
+                state={joint.name: float(q)},
+                value=float(share),
+                bound=bound.at_least(),
+                cause=f"friction of {joint.friction:g} does not hold it at {q:.3g}",
+                remedy="raise the friction, or balance the part by a spring",
+            )
+
+
+def _load(model: mujoco.MjModel, data: mujoco.MjData, joint: Joint, q: float) -> float:
+    """What friction must hold at `q` with all others at rest, N m or N."""
+    number = model.joint(joint.name).id
+    mujoco.mj_resetData(model, data)
+    data.qpos[number] = q
+    mujoco.mj_forward(model, data)
+    return abs(float(data.qfrc_bias[number] - data.qfrc_passive[number]))

@@ -1,6 +1,7 @@
 """MuJoCo with the settings under which its answers can be trusted."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 import mujoco
@@ -68,3 +69,23 @@ def set_state(model: mujoco.MjModel, data: mujoco.MjData, q: Mapping[str, float]
     for name, value in q.items():
         data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
     mujoco.mj_kinematics(model, data)
+
+
+@contextmanager
+def simulating(model: mujoco.MjModel, *, off: int = 0, on: int = 0) -> Iterator[None]:
+    """Effects of `mjtDisableBit` switched off, and extras of `mjtEnableBit` on, for a while; step
+    and integrator may be changed meanwhile and come back too."""
+    option = model.opt
+    before = option.disableflags, option.enableflags, option.integrator, option.timestep
+    option.disableflags |= off
+    option.enableflags |= on
+    try:
+        yield
+    finally:
+        option.disableflags, option.enableflags, option.integrator, option.timestep = before
+
+
+def warnings_of(data: mujoco.MjData) -> list[str]:
+    """Names of what MuJoCo warned of while it simulated."""
+    counts = [warning.number for warning in data.warning]
+    return [mujoco.mjtWarning(k).name for k, count in enumerate(counts) if count > 0]
