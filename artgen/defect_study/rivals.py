@@ -4,32 +4,38 @@ They run where they are installed; a loader that accepts a spoilt file without a
 defect.
 """
 
+import contextlib
 import json
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-TIMEOUT_S = 120.0
+TIMEOUT_S = 300.0
+"""For all files of one process."""
+HANG_S = 5.0
+"""check_urdf needs milliseconds, and runs for ever on a link that is its own parent."""
 
 _LOOP = """
 import json, sys, warnings
 warnings.simplefilter("ignore")
 {setup}
-print(json.dumps("ready"), flush=True)
-for path in sys.argv[1:]:
-    try:
-        {load}
-        print(json.dumps([path, ""]), flush=True)
-    except BaseException as error:
-        print(json.dumps([path, f"{{type(error).__name__}}: {{error}}"[:200]]), flush=True)
+with open(sys.argv[1], "w") as answers:
+    for path in sys.argv[2:]:
+        try:
+            {load}
+            said = ""
+        except BaseException as error:
+            said = f"{{type(error).__name__}}: {{error}}"[:200]
+        print(json.dumps(said or ""), file=answers, flush=True)
 """
 PYTHON: Mapping[str, tuple[str, str]] = {
     "MuJoCo": ("import mujoco", "mujoco.MjModel.from_xml_path(path)"),
     "yourdfpy": (
         "import yourdfpy",
-        "robot = yourdfpy.URDF.load(path)\n        assert robot.validate(), robot.errors",
+        "robot = yourdfpy.URDF.load(path)\n            assert robot.validate(), robot.errors",
     ),
     "urchin": ("import urchin", "urchin.URDF.load(path)"),
     "pinocchio": (
@@ -45,7 +51,7 @@ PYTHON: Mapping[str, tuple[str, str]] = {
         "from pydrake.multibody.parsing import Parser\n"
         "from pydrake.systems.framework import DiagramBuilder",
         "plant, _ = AddMultibodyPlantSceneGraph(DiagramBuilder(), 0.0)\n"
-        "        Parser(plant).AddModels(path); plant.Finalize()",
+        "            Parser(plant).AddModels(path); plant.Finalize()",
     ),
 }
 CHECK_URDF = "check_urdf"
@@ -55,42 +61,36 @@ NAMES = (CHECK_URDF, *PYTHON)
 def verdicts(rival: str, files: Sequence[Path]) -> dict[Path, str] | None:
     """File to the rival's complaint, empty where it accepts; None where it is not installed.
 
-    A process that dies on a file has refused it, and goes on with the next in a fresh process.
+    A process that dies or hangs on a file has refused it; the next files get a fresh one.
     """
     if rival == CHECK_URDF:
         return _by_check_urdf(files)
-    found: dict[Path, str] = {}
-    waiting = list(files)
-    while waiting:
-        answered, ready = _run(rival, waiting)
-        if not ready:
+    found: list[str] = []
+    while len(found) < len(files):
+        answered = _run(rival, files[len(found) :])
+        if answered is None:
             return None
-        found |= answered
-        waiting = waiting[len(answered) :]
-        if waiting:
-            found[waiting.pop(0)] = "the process died"
-    return found
+        found += answered
+        if len(found) < len(files):
+            found.append("the process died or hung")
+    return dict(zip(files, found, strict=True))
 
 
-def _run(rival: str, files: Sequence[Path]) -> tuple[dict[Path, str], bool]:
-    """Complaints in the order of the files, up to where the process ended; whether it started."""
+def _run(rival: str, files: Sequence[Path]) -> list[str] | None:
+    """Complaints in the order of the files, up to where the process ended; None if it never began.
+
+    Answers go to a file of their own, as loaders print what they like.
+    """
     setup, load = PYTHON[rival]
-    script = _LOOP.format(setup=setup, load=load)
-    try:
-        done = subprocess.run(
-            [sys.executable, "-c", script, *map(str, files)],
-            capture_output=True,
-            text=True,
-            timeout=TIMEOUT_S,
-            check=False,
-        )
-        output = done.stdout
-    except subprocess.TimeoutExpired as error:
-        output = (error.stdout or b"").decode()
-    lines = [line for line in output.splitlines() if line.startswith(("[", '"'))]
-    if not lines or json.loads(lines[0]) != "ready":
-        return {}, False
-    return {Path(path): said for path, said in map(json.loads, lines[1:])}, True
+    with tempfile.TemporaryDirectory() as folder:
+        answers = Path(folder) / "answers"
+        script = _LOOP.format(setup=setup, load=load)
+        command = [sys.executable, "-c", script, str(answers), *map(str, files)]
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            subprocess.run(command, capture_output=True, timeout=TIMEOUT_S, check=False)
+        if not answers.exists():
+            return None
+        return [json.loads(line) for line in answers.read_text(encoding="utf-8").splitlines()]
 
 
 def _by_check_urdf(files: Sequence[Path]) -> dict[Path, str] | None:
@@ -99,9 +99,13 @@ def _by_check_urdf(files: Sequence[Path]) -> dict[Path, str] | None:
         return None
     found = {}
     for file in files:
-        done = subprocess.run(
-            [program, str(file)], capture_output=True, text=True, timeout=TIMEOUT_S, check=False
-        )
+        try:
+            done = subprocess.run(
+                [program, str(file)], capture_output=True, text=True, timeout=HANG_S, check=False
+            )
+        except subprocess.TimeoutExpired:
+            found[file] = "the process hung"
+            continue
         complaint = (done.stderr.strip().splitlines() or ["refused"])[-1]
         found[file] = complaint if done.returncode else ""
     return found
