@@ -4,6 +4,7 @@ import shutil
 import tempfile
 import time
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from artgen.core.stream import Stream
@@ -15,6 +16,24 @@ from renders.plan import plan_render
 from renders.settings import Settings
 
 
+@dataclass(frozen=True, kw_only=True)
+class Account:
+    """What a sample cost.
+
+    Attributes:
+        composites, alone: images of all parts, and of parts alone.
+        seconds: wall seconds by stage: plan, render, collect.
+        cpu: CPU seconds of the backend by its own stages.
+        effects: of light transport, as `Transport.described` states them.
+    """
+
+    composites: int
+    alone: int
+    seconds: Mapping[str, float]
+    cpu: Mapping[str, float]
+    effects: Mapping[str, Mapping[str, object]]
+
+
 def render_asset(
     bundle: Bundle,
     sample_path: Path,
@@ -23,8 +42,8 @@ def render_asset(
     seed: int,
     scratch: Path,
     backend: Backend,
-) -> Mapping[str, float]:
-    """Render, label and stage one asset's sample; seconds by stage.
+) -> Account:
+    """Render, label and stage one asset's sample; what that cost.
 
     Everything drawn depends on (seed, asset id) alone; the file appears whole or not at all.
 
@@ -42,15 +61,22 @@ def render_asset(
             folder=folder,
         )
         planned = time.perf_counter()
-        images = backend.images(plan, folder)
+        pictures = backend.pictures(plan, folder)
         rendered = time.perf_counter()
-        sample = collected(plan, images, shading=backend.shading)
+        sample = collected(plan, pictures.images, shading=backend.shading)
         sample_path.parent.mkdir(parents=True, exist_ok=True)
         stage(sample_path, sample)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
-    return {
-        "plan": planned - started,
-        "render": rendered - planned,
-        "collect": time.perf_counter() - rendered,
-    }
+    composites = sum(shot.part is None for shot in plan.passes.shots)
+    return Account(
+        composites=composites,
+        alone=len(plan.passes.shots) - composites,
+        seconds={
+            "plan": planned - started,
+            "render": rendered - planned,
+            "collect": time.perf_counter() - rendered,
+        },
+        cpu=pictures.cpu,
+        effects=pictures.effects,
+    )

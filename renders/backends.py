@@ -7,13 +7,18 @@ from typing import Protocol, overload
 from artgen.core.errors import RenderError
 from artgen.core.jsonio import plain
 from artgen.imaging import Singles, read_exr
+from artgen.render_job import Shot
 from artgen.worker import BlenderWorker
 from renders.fast.backend import FastBackend
+from renders.pictures import Pictures
 from renders.plan import RenderPlan
 
 CYCLES = "cycles"
 TIMEOUT_S = 900.0
-"""A sample takes 10 to 30 CPU s at 128 px; large images on a busy machine take more."""
+TIMEOUT_PER_IMAGE_S = 2.0
+TIMEOUT_PER_PATH_S = 3e-5
+"""A path takes 1e-6 CPU s and an image 0.03 s; a machine that is thirty times slower, or that many
+times shared, is still waited for."""
 
 
 class Backend(Protocol):
@@ -25,9 +30,8 @@ class Backend(Protocol):
 
     shading: str
 
-    def images(self, plan: RenderPlan, folder: Path) -> Sequence[Singles]:
-        """For each shot of the plan (h, w, 4) float32 of its window, linear RGB premultiplied by
-        alpha; may use files in `folder`."""
+    def pictures(self, plan: RenderPlan, folder: Path) -> Pictures:
+        """All images of the plan; may use files in `folder`."""
 
 
 class CyclesBackend:
@@ -38,14 +42,27 @@ class CyclesBackend:
     def __init__(self, worker: BlenderWorker) -> None:
         self._worker = worker
 
-    def images(self, plan: RenderPlan, folder: Path) -> Sequence[Singles]:
+    def pictures(self, plan: RenderPlan, folder: Path) -> Pictures:
         """Blender writes the files; each is read when it is asked for.
 
         Raises:
             WorkerError: Blender failed.
         """
-        self._worker.run(plain(plan.job), timeout_s=TIMEOUT_S)
-        return ExrImages(plan, folder)
+        report = self._worker.run(plain(plan.job), timeout_s=patience(plan.job.shots))
+        return Pictures(
+            images=ExrImages(plan, folder),
+            cpu=report["cpu"],
+            effects=plan.job.transport.described(),
+        )
+
+
+def patience(shots: Sequence[Shot]) -> float:
+    """Seconds after which a job that is not done hangs."""
+    paths = 0
+    for shot in shots:
+        left, top, right, bottom = shot.box
+        paths += (right - left) * (bottom - top) * shot.samples
+    return TIMEOUT_S + TIMEOUT_PER_IMAGE_S * len(shots) + TIMEOUT_PER_PATH_S * paths
 
 
 class ExrImages(Sequence[Singles]):

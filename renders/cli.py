@@ -2,97 +2,157 @@
 
 import logging
 import os
-from collections.abc import Sequence
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import tyro
+from rich.console import Console
 
 from artgen.core.errors import UsageError
+from artgen.core.jsonio import write_json
 from artgen.progress import progress
-from artgen.run_folder import RunFolder, locked, run_log
+from artgen.run_folder import RunFolder, locked, opened, run_log
 from artgen.system_libraries import check_libraries
 from renders.accuracy import quality
 from renders.contact_sheet import write_contact_sheet
+from renders.report import print_report, render_report, write_report
 from renders.run import Rendered, RenderTask, is_staged, planned_tasks, run_tasks
-from renders.settings import Settings
+from renders.settings import PRESETS, Settings, checked
+from renders.sources import Found, found_bundles, rendering_folder
+
+Preset = Literal["multiview", "monocular", "trajectory"]
+SHEET = 96
+"""Assets on the contact sheet at most."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Render:
-    """Render every bundle of a run: all parts together and each alone, with labels and targets.
+    """Render bundles: all parts together and each alone, with labels and training targets.
 
-    Interrupted runs resume. A sample depends on its bundle, these settings and the seed alone.
+    DIR is a run of `artgen generate`, a folder that holds bundles at any depth (generated,
+    ingested, reconstructed), or one bundle. Interrupted runs resume: the same command again renders
+    what is missing. A sample depends on its bundle, the settings and the seed alone.
+
+    For example:
+
+    artgen render out --views 12 --states 4 --size 256 --accuracy standard
+
+    artgen render out --preset monocular --name mono
+
+    artgen render scans --out scans-rendered --cameras.scheme sphere --cameras.look-at 0.1
     """
 
-    out: Annotated[Path, tyro.conf.Positional] = Path("out")
-    """Folder of the run; receives samples/ and contact_sheet.png."""
-    views: int = 4
-    """Cameras per asset."""
-    states: int = 2
-    """Joint states per asset; the first of several is closed."""
-    size: int = 128
-    """Image width and height, px."""
-    accuracy: str = "standard"
-    """A preset (draft, standard, high, reference) or paths a pixel such as 16spp."""
+    source: Annotated[Path, tyro.conf.arg(metavar="DIR"), tyro.conf.Positional] = Path("out")
+    """Run, folder of bundles, or bundle."""
+    preset: Preset = "multiview"
+    """Settings to start from, as ART trains: multiview (V=4, T=2), monocular (V=1, T=2), trajectory
+    (V=1, 16 frames of one motion); options given beside it win."""
+    out: Path | None = None
+    """Folder that receives the rendering; by default DIR itself if it is a run, else DIR-renders.
+    Bundles are never written to."""
+    name: str | None = None
+    """Name of a second rendering, with other settings, that lives in renders/NAME of that folder.
+    """
     seed: int = 0
     """Root of all randomness."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side; the result is the same for any number."""
+    settings: Annotated[Settings, tyro.conf.arg(name="")] = field(default_factory=Settings)
 
 
 def render(argv: Sequence[str]) -> int:
     """Render bundles in several views and states, with labels."""
-    command = tyro.cli(Render, args=list(argv), prog="artgen render")
-    settings = checked(command)
+    words = list(argv)
+    command = tyro.cli(
+        Render, args=words, prog="artgen render", default=Render(settings=_preset(words))
+    )
+    settings = checked(command.settings)
+    quality(settings.accuracy)
+    if command.workers < 1:
+        raise UsageError(f"--workers {command.workers}: expected at least 1")
     check_libraries()
-    if not command.out.is_dir():
-        raise UsageError(f"{command.out}: no such folder; name a run of `artgen generate`")
-    folder = RunFolder(command.out)
-    with locked(command.out):
-        tasks = planned_tasks(folder, settings, command.seed)
-        failed = render_all(folder, tasks, workers=command.workers)
+    found = found_bundles(command.source)
+    root = rendering_folder(command.source, out=command.out, name=command.name)
+    with _rendering(root, command) as folder:
+        tasks, refused = planned_tasks(folder, found, settings, command.seed)
+        _write_sources(folder, command.source, found)
+        failed = [*refused, *render_all(folder, tasks, workers=command.workers)]
         if staged := [task.sample for task in tasks if is_staged(task)]:
-            write_contact_sheet(folder.contact_sheet, staged)
-    print(f"{len(staged)} of {len(tasks)} assets rendered: {command.out / 'samples'}")  # noqa: T201
-    for outcome in failed:
-        print(f"failed {outcome.asset_id}: {outcome.message}")  # noqa: T201
+            write_contact_sheet(folder.contact_sheet, staged[:SHEET])
+    print(f"{len(staged)} of {len(found)} assets rendered: {root / 'samples'}")  # noqa: T201
+    for outcome in sorted(failed, key=lambda outcome: outcome.asset_id):
+        print(f"failed {outcome.asset_id}: {_line(outcome.message)}")  # noqa: T201
     return 1 if failed else 0
 
 
-def checked(command: Render) -> Settings:
-    """The settings of a sensible command.
+def _preset(words: Sequence[str]) -> Settings:
+    """The preset that the words name; a name that does not exist is told by the parser."""
+    asked = "multiview"
+    for word, following in zip(words, [*words[1:], ""], strict=True):
+        if word == "--preset":
+            asked = following
+        elif word.startswith("--preset="):
+            asked = word.removeprefix("--preset=")
+    return PRESETS.get(asked, Settings())
 
-    Raises:
-        UsageError: a number is out of bounds.
-    """
-    least = {"views": 1, "states": 1, "size": 16, "workers": 1}
-    for name, bound in least.items():
-        if (value := getattr(command, name)) < bound:
-            raise UsageError(f"--{name} {value} is too small; ask for at least {bound}")
-    quality(command.accuracy)
-    return Settings(
-        views=command.views, states=command.states, size=command.size, accuracy=command.accuracy
-    )
+
+@contextmanager
+def _rendering(root: Path, command: Render) -> Iterator[RunFolder]:
+    """The folder of the rendering, locked: a run as it is, any other one created or recognized."""
+    if root.resolve() == command.source.resolve():
+        with locked(root):
+            yield RunFolder(root)
+    else:
+        with opened(root, seed=command.seed) as folder:
+            yield folder
+
+
+def _write_sources(folder: RunFolder, source: Path, found: Sequence[Found]) -> None:
+    """bundles.json of a rendering that lies apart from its bundles: asset id to their folder."""
+    if folder.root.resolve() != source.resolve():
+        root = folder.root.resolve()
+        places = {
+            bundle.asset_id: os.path.relpath(bundle.folder.resolve(), root) for bundle in found
+        }
+        write_json(folder.root / "bundles.json", places)
 
 
 def render_all(folder: RunFolder, tasks: Sequence[RenderTask], *, workers: int) -> list[Rendered]:
-    """Render what is missing; the failures, sorted. One line per asset and stage in run.log."""
+    """Render what is missing; the failures. One line per asset and stage in run.log, a report in
+    render_report.json."""
     missing = [task for task in tasks if not is_staged(task)]
     if not missing:
         return []
-    record, failed = run_log(folder), []
+    record, outcomes = run_log(folder), []
+    started = time.perf_counter()
     with progress("renders", len(missing)) as advance:
         for outcome in run_tasks(folder, missing, workers=workers):
             _write_down(record, outcome)
-            if outcome.message:
-                failed.append(outcome)
+            outcomes.append(outcome)
             advance(f"{outcome.asset_id} {'failed' if outcome.message else 'rendered'}")
-    return sorted(failed, key=lambda outcome: outcome.asset_id)
+    report = render_report(
+        sorted(outcomes, key=lambda outcome: outcome.asset_id),
+        missing[0].settings,
+        kept=len(tasks) - len(missing),
+        wall=time.perf_counter() - started,
+    )
+    write_report(folder.root / "render_report.json", report)
+    print_report(report, Console())
+    return [outcome for outcome in outcomes if outcome.message]
 
 
 def _write_down(record: logging.Logger, outcome: Rendered) -> None:
-    for stage, seconds in outcome.seconds.items():
-        record.info("%s %s %.2f s", outcome.asset_id, stage, seconds)
+    if outcome.account is not None:
+        for stage, seconds in outcome.account.seconds.items():
+            record.info("%s %s %.2f s", outcome.asset_id, stage, seconds)
     record.info("%s render: %s", outcome.asset_id, outcome.message or "staged")
+
+
+def _line(message: str) -> str:
+    """The first line of a message; Blender's log, which may follow, is in logs/."""
+    first, *more = message.splitlines()
+    return first.removesuffix(" ends with:") if more else first

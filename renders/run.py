@@ -1,25 +1,31 @@
-"""Many assets to staged samples: processes side by side, resumable."""
+"""Many assets to staged samples: processes side by side, resumable, faults set aside."""
 
 import json
+import logging
 import os
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
+from artgen.cli import FULL_DISK
 from artgen.core.errors import ArtgenError, ShardError, UsageError
 from artgen.core.jsonio import plain, write_json
 from artgen.dataset import open_shard
 from artgen.export import read_bundle
-from artgen.export.layout import MANIFEST
 from artgen.export.manifest import versions
 from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
-from renders.asset import render_asset
+from renders.asset import Account, render_asset
 from renders.backends import BACKENDS, Backend
 from renders.settings import Settings
+from renders.sources import SAFE, Found
+
+log = logging.getLogger(__name__)
 
 ASSET_TIMEOUT_S = 3600.0
+TIMEOUT_PER_IMAGE_S = 60.0
 """Beyond every limit of the Blender worker itself; a process that hangs for this long is killed."""
 
 
@@ -27,15 +33,11 @@ ASSET_TIMEOUT_S = 3600.0
 class RenderTask:
     """One asset to render; the sample depends on the bundle, `settings` and `seed` alone."""
 
+    asset_id: str
     bundle: Path
     sample: Path
     settings: Settings
     seed: int
-
-    @property
-    def asset_id(self) -> str:
-        """Category and index, as the folders are named."""
-        return f"{self.bundle.parent.name}_{self.bundle.name}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,32 +46,49 @@ class Rendered:
 
     asset_id: str
     message: str = ""
-    seconds: Mapping[str, float] = field(default_factory=dict)
+    account: Account | None = None
 
 
-def planned_tasks(folder: RunFolder, settings: Settings, seed: int) -> list[RenderTask]:
-    """One task for every bundle under assets/, sorted.
+def planned_tasks(
+    folder: RunFolder, found: Sequence[Found], settings: Settings, seed: int
+) -> tuple[list[RenderTask], list[Rendered]]:
+    """One task for every bundle, and those that cannot be told apart or named.
 
     Raises:
-        UsageError: there is no bundle, or samples/ was rendered with other settings.
+        UsageError: samples/ was rendered with other settings.
     """
-    bundles = sorted(path.parent for path in folder.assets.glob(f"*/*/{MANIFEST}"))
-    if not bundles:
-        raise UsageError(
-            f"{folder.assets}: holds no bundle; make some with "
-            f"`artgen generate --out {folder.root}`"
-        )
     samples = folder.root / "samples"
     _remember(samples / "settings.json", settings, seed)
-    return [
-        RenderTask(
-            bundle=bundle,
-            sample=samples / bundle.parent.name / f"{bundle.name}.tar",
-            settings=settings,
-            seed=seed,
+    times = Counter(bundle.asset_id for bundle in found)
+    tasks, refused = [], []
+    for bundle in found:
+        if message := _unnameable(bundle, times[bundle.asset_id]):
+            refused.append(Rendered(asset_id=bundle.asset_id, message=message))
+            continue
+        tasks.append(
+            RenderTask(
+                asset_id=bundle.asset_id,
+                bundle=bundle.folder,
+                sample=samples / bundle.sample,
+                settings=settings,
+                seed=seed,
+            )
         )
-        for bundle in bundles
-    ]
+    return tasks, refused
+
+
+def _unnameable(bundle: Found, times: int) -> str:
+    if not (SAFE.fullmatch(bundle.asset_id) and SAFE.fullmatch(bundle.category)):
+        return (
+            f"{bundle.folder}: asset id {bundle.asset_id!r} and category {bundle.category!r} must "
+            "be letters, digits, - and _; rename them in the manifest"
+        )
+    if times > 1:
+        return (
+            f"{bundle.folder}: {times} bundles call themselves {bundle.asset_id}; render them from "
+            "separate folders, each with its own --out"
+        )
+    return ""
 
 
 def is_staged(task: RenderTask) -> bool:
@@ -87,13 +106,14 @@ def run_tasks(
     """Outcomes as they come; cores beyond the number of processes become render threads."""
     shutil.rmtree(scratch(folder), ignore_errors=True)  # of a run that was killed
     processes = max(1, min(workers, len(tasks)))
+    settings = tasks[0].settings
     return run_in_processes(
         tasks,
         _task_in_worker,
         workers=processes,
         initializer=_open_worker,
-        initargs=(folder, tasks[0].settings.backend, max(1, workers // processes)),
-        timeout_s=ASSET_TIMEOUT_S,
+        initargs=(folder, settings.backend, max(1, workers // processes)),
+        timeout_s=ASSET_TIMEOUT_S + TIMEOUT_PER_IMAGE_S * settings.views * settings.states,
         lost=lambda task, cause: Rendered(asset_id=task.asset_id, message=cause),
     )
 
@@ -109,13 +129,29 @@ def _remember(path: Path, settings: Settings, seed: int) -> None:
     if not path.exists():
         write_json(path, asked)
         return
-    found = json.loads(path.read_text(encoding="utf-8"))
-    if found != asked:
-        changed = [key for key in asked if found.get(key) != asked[key]]
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError as error:
         raise UsageError(
-            f"{path.parent}: was rendered with other {' and '.join(changed)} (see {path.name}); "
-            "delete that folder to render anew, or ask for the same"
+            f"{path}: is damaged ({error}), so nobody knows how the samples beside it were "
+            "rendered; delete that folder to render anew"
+        ) from error
+    if found != asked:
+        changed = ", ".join(_changes(asked, found))
+        raise UsageError(
+            f"{path.parent}: was rendered with other {changed} (see {path.name}); ask for the "
+            "same, give this rendering a --name of its own, or delete that folder to render anew"
         )
+
+
+def _changes(asked: dict[str, object], found: object, where: str = "") -> Iterator[str]:
+    """The options that differ, as `views 4 (now 2)`."""
+    for key, value in asked.items():
+        before = found.get(key) if isinstance(found, dict) else None
+        if isinstance(value, dict):
+            yield from _changes(value, before, where if key == "settings" else f"{where}{key}.")
+        elif before != value:
+            yield f"{where}{key} {before} (now {value})"
 
 
 _worker: tuple[Backend, Path] | None = None
@@ -134,7 +170,7 @@ def _task_in_worker(task: RenderTask) -> Rendered:
         raise RuntimeError("the pool did not open its worker")
     backend, images = _worker
     try:
-        seconds = render_asset(
+        account = render_asset(
             read_bundle(task.bundle),
             task.sample,
             settings=task.settings,
@@ -142,6 +178,15 @@ def _task_in_worker(task: RenderTask) -> Rendered:
             scratch=images,
             backend=backend,
         )
-    except ArtgenError as error:
-        return Rendered(asset_id=task.asset_id, message=str(error))
-    return Rendered(asset_id=task.asset_id, seconds=seconds)
+    except (ArtgenError, OSError, MemoryError) as error:
+        return Rendered(asset_id=task.asset_id, message=_told(error))
+    return Rendered(asset_id=task.asset_id, account=account)
+
+
+def _told(error: BaseException) -> str:
+    if isinstance(error, OSError) and error.errno in FULL_DISK:
+        place = error.filename or "the output folder"
+        return f"{place}: no space left; free some, then run the same command"
+    if isinstance(error, MemoryError):
+        return f"out of memory ({error}); ask for fewer --views or --states, or a smaller --size"
+    return str(error)

@@ -25,14 +25,20 @@ class CameraSettings:
     """Where the cameras stand; every deviation is off unless asked for.
 
     Attributes:
-        scheme: `orbit` around the front; `ring` at even azimuths; `sphere` all around, Fibonacci;
-            `hemisphere` over the front half.
-        fov: (least, greatest) across the image, rad; drawn for every view.
-        look_at: greatest deviation of the point looked at, in radii of the object.
-        dolly: greatest share by which a camera comes nearer or goes farther than framing asks.
-        principal: greatest offset of the principal point, as after cropping, in widths.
-        rotation_noise: standard deviation of the stated orientation, rad.
-        position_noise: standard deviation of the stated position, in radii of the object.
+        scheme: `orbit`, mostly around the front; `ring`, all around at even azimuths; `sphere`, all
+            around and above; `hemisphere`, the front half of it.
+        fov: Least and greatest angle of view across the image, rad; drawn for every view. 0.45 is a
+            75 mm lens on a square of 35 mm film's height, 0.84 a 40 mm lens.
+        look_at: By how much a camera may look past the middle of the object, right, left, up and
+            down, in radii of the object. The object stays inside the image.
+        dolly: By what share of its distance a camera may come nearer or go farther than framing
+            asks. The object stays inside the image.
+        principal: By how much the principal point may lie off the middle of the image, in widths,
+            as after cropping. The object stays inside the image.
+        rotation_noise: Standard deviation of the orientation that samples state beside the true
+            one, about each axis, rad.
+        position_noise: Standard deviation of the position that samples state beside the true one,
+            along each axis, in radii of the object.
     """
 
     scheme: CameraScheme = "orbit"
@@ -49,11 +55,11 @@ class SensorSettings:
     """What a real camera adds after rendering; each is off at zero and has its own stream.
 
     Attributes:
-        exposure: greatest deviation, stops.
-        white_balance: greatest gain of red against blue, as a share.
-        noise: standard deviation at middle gray, in 8-bit codes.
-        blur: greatest radius of defocus, px.
-        jpeg: quality 1 to 100; 0 stores what was rendered.
+        exposure: Greatest deviation, stops.
+        white_balance: Greatest gain of red against blue, as a share.
+        noise: Standard deviation at middle gray, in 8-bit codes.
+        blur: Greatest radius of defocus, px.
+        jpeg: Quality 1 to 100 of a compression that images go through; 0 leaves it out.
     """
 
     exposure: float = 0.0
@@ -68,14 +74,19 @@ class Settings:
     """How many images, how large, how clean, of what, under which light.
 
     Attributes:
-        views: cameras.
-        states: joint states.
-        size: width and height, px.
-        accuracy: a preset's name, decibels such as `35dB`, or paths a pixel such as `16spp`.
-        motion: `drawn` states, or a smooth `trajectory` through them.
-        ground: catch shadows on a floor.
-        motion_blur: share of a state's interval for which the shutter is open; 0 is a still.
-        extras: images beyond those that every sample has.
+        views: Cameras (V), the same in every state.
+        states: Joint states (T); the first of several is rest.
+        size: Width and height of an image, px.
+        accuracy: draft, standard, high or reference; decibels such as `35dB`; or paths a pixel such
+            as `16spp`.
+        backend: `cycles` traces paths; `fast` draws by OpenGL, for previews and pre-training.
+        motion: `drawn` states, each on its own, or frames of one smooth `trajectory` that obeys
+            limits and preconditions at all times.
+        light: Kind of light that each asset draws its own of.
+        ground: Catch the object's shadow on a floor.
+        motion_blur: Share of the time between two frames of a trajectory for which the shutter is
+            open; 0 is a still.
+        extras: Images beyond those that every sample has.
     """
 
     views: int = 4

@@ -1,9 +1,8 @@
 """The fast backend: the images of a plan without Blender."""
 
-from collections.abc import Sequence
+import time
 from pathlib import Path
 
-from artgen.imaging import Singles
 from artgen.transport import CLEAR
 from renders.fast.context import open_context
 from renders.fast.filtered import Blur
@@ -11,6 +10,7 @@ from renders.fast.light import shine
 from renders.fast.rasterizer import Canvases, Programs, Rasterizer
 from renders.fast.scenes import occlusions, scene_of
 from renders.glb import read_appearance
+from renders.pictures import Pictures
 from renders.plan import RenderPlan
 
 SHADING = "fast/1"
@@ -28,17 +28,19 @@ class FastBackend:
         self._canvases = Canvases(self._context)
         self._blur = Blur()
 
-    def images(self, plan: RenderPlan, folder: Path) -> Sequence[Singles]:
-        """For each shot (h, w, 4) float32 of its window, linear RGB premultiplied by alpha.
+    def pictures(self, plan: RenderPlan, folder: Path) -> Pictures:
+        """All images of the plan, drawn one after the other; no file is written.
 
         Raises:
             RenderError: the GLB cannot be read, or the rig has too many lights.
         """
+        started = time.process_time()
         appearance = read_appearance(Path(plan.job.glb))
         surfaces = {surface.name: surface for surface in plan.bundle.surfaces}
         light = shine(plan.job.rig, self._blur)
         opaque = [s for s in appearance.skins if surfaces[s.surface].transmission <= CLEAR]
         hidden = occlusions(opaque, plan.passes.shots, plan.poses, light)
+        prepared = time.process_time()
         rasterizer = Rasterizer(
             self._context,
             self._programs,
@@ -49,7 +51,7 @@ class FastBackend:
         )
         try:
             shades = {scene: rasterizer.shade(found) for scene, found in hidden.items()}
-            return [
+            images = [
                 rasterizer.draw(
                     plan.cameras[shot.camera],
                     shot.box,
@@ -61,3 +63,5 @@ class FastBackend:
             ]
         finally:
             rasterizer.close()
+        cpu = {"shade": prepared - started, "draw": time.process_time() - prepared}
+        return Pictures(images=images, cpu=cpu)

@@ -1,12 +1,14 @@
 """`artgen render`: renders what is missing, in any number of processes, and says what is wrong."""
 
 import hashlib
+import json
 import shutil
 from pathlib import Path
 
 import pytest
 
 from artgen.core.errors import UsageError
+from artgen.dataset import open_shard
 from artgen.export import Bundle
 from renders.cli import render
 
@@ -28,7 +30,7 @@ def run_folder(bundle: Bundle, root: Path) -> Path:
 
 
 def hashes(out: Path) -> dict[str, str]:
-    files = [path for path in sorted(out.rglob("samples/**/*")) if path.is_file()]
+    files = [path for path in sorted(out.glob("samples/**/*")) if path.is_file()]
     files.append(out / "contact_sheet.png")
     return {
         path.relative_to(out).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
@@ -53,14 +55,56 @@ def test_a_bad_asset_fails_alone_and_workers_do_not_show(
     assert render([str(one), *SMALL, "--workers", "1"]) == 0
     assert hashes(one) == hashes(two)
     assert not list((one / "work" / "render").iterdir())
+    report = json.loads((one / "render_report.json").read_text())
+    assert report["assets"] == {"rendered": 1, "kept": 1, "failed": 0}
+    assert report["images"] == {"composite": 1, "alone": 4}
+    assert set(report["cpu_seconds"]) == {"import", "composite", "alone"}
+    assert report["effects"]["thin_glass"]["assets"] == 1
+    assert report["effects"]["motion_blur"]["assets"] == 0
+
+
+@pytest.mark.blender
+def test_a_second_rendering_lives_beside_the_first(bundle: Bundle, tmp_path: Path) -> None:
+    """Options win over their preset; the run's own samples and bundles stay as they are."""
+    run = run_folder(bundle, tmp_path / "run")
+    shutil.rmtree(run / "assets" / "chest" / "000003")
+    fast = ["--size", "24", "--backend", "fast", "--workers", "1"]
+    assert render([str(run), *fast]) == 0
+    before = hashes(run)
+    assert render([str(run), *fast, "--preset", "monocular", "--states=3", "--name", "mono"]) == 0
+    assert hashes(run) == before
+    report = json.loads((run / "render_report.json").read_text())
+    assert set(report["cpu_seconds"]) == {"shade", "draw"}
+    assert not report["effects"]
+    named = run / "renders" / "mono"
+    sample = open_shard(named / "samples" / "chest" / "000001.tar").read("chest_000001")
+    assert sample.shape == (3, 1, 4, 24, 24)
+    with pytest.raises(UsageError, match=r"other views 1 \(now 4\), states 3 \(now 2\)"):
+        render([str(run), *fast, "--name", "mono"])
+
+
+@pytest.mark.blender
+def test_any_folder_of_bundles_is_rendered_beside_itself(bundle: Bundle, tmp_path: Path) -> None:
+    scans = tmp_path / "scans"
+    shutil.copytree(bundle.folder, scans / "deep" / "one")
+    before = sorted(scans.rglob("*"))
+    words = ["--size", "24", "--backend", "fast", "--workers", "1", "--views", "1"]
+    assert render([str(scans), *words]) == 0
+    assert sorted(scans.rglob("*")) == before
+    beside = tmp_path / "scans-renders"
+    assert (beside / "samples" / "chest" / "000001.tar").is_file()
+    places = json.loads((beside / "bundles.json").read_text())
+    assert places == {"chest_000001": "../scans/deep/one"}
 
 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--views", "0"], "--views 0 is too small; ask for at least 1"),
-        (["--size", "8"], "--size 8 is too small; ask for at least 16"),
-        (["--workers", "-1"], "--workers -1 is too small"),
+        (["--views", "0"], "--views 0: expected 1 to 1024 cameras"),
+        (["--size", "8"], "--size 8: expected 16 to 8192 px"),
+        (["--accuracy", "fine"], "--accuracy fine is unknown"),
+        (["--preset", "trajectory", "--states", "40"], "--states 40: expected 2 to 32 frames"),
+        (["--workers", "-1"], "--workers -1: expected at least 1"),
     ],
 )
 def test_nonsense_is_refused(tmp_path: Path, words: list[str], said: str) -> None:

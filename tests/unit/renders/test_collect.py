@@ -1,23 +1,20 @@
 """From bundle to staged sample: complete, consistent, the same every time; bad input is told."""
 
-import json
 from pathlib import Path
 
 import pytest
 
-from artgen.core.errors import RenderError, UsageError
+from artgen.core.errors import RenderError
 from artgen.core.stream import Stream
 from artgen.dataset import open_shard
 from artgen.dataset.image_checks import check_images
 from artgen.export import Bundle
-from artgen.run_folder import RunFolder
 from artgen.worker import BlenderWorker
 from renders.asset import render_asset
 from renders.backends import CyclesBackend, ExrImages
 from renders.collect import collected
 from renders.contact_sheet import write_contact_sheet
 from renders.plan import plan_render
-from renders.run import is_staged, planned_tasks
 from renders.settings import Settings
 
 SETTINGS = Settings(views=2, states=2, size=32, accuracy="2spp")
@@ -29,7 +26,7 @@ def sample_path(
 ) -> Path:
     folder = tmp_path_factory.mktemp("staged")
     path = folder / "samples" / "chest" / "000001.tar"
-    seconds = render_asset(
+    account = render_asset(
         bundle,
         path,
         settings=SETTINGS,
@@ -37,7 +34,11 @@ def sample_path(
         scratch=folder / "work",
         backend=CyclesBackend(blender),
     )
-    assert set(seconds) == {"plan", "render", "collect"}
+    assert set(account.seconds) == {"plan", "render", "collect"}
+    assert set(account.cpu) == {"import", "composite", "alone"}
+    assert account.composites == 4
+    assert account.effects["thin_glass"]["on"]
+    assert not account.effects["motion_blur"]["on"]
     assert not any((folder / "work").iterdir())
     return path
 
@@ -94,37 +95,5 @@ def test_the_contact_sheet_repeats(sample_path: Path, tmp_path: Path) -> None:
 @pytest.mark.blender
 def test_a_missing_image_is_told(bundle: Bundle, tmp_path: Path) -> None:
     plan = plan_render(bundle, Stream(1), settings=SETTINGS, folder=tmp_path)
-    with pytest.raises(RenderError, match=r"0000\.exr cannot be read"):
+    with pytest.raises(RenderError, match=r"000000\.exr cannot be read"):
         collected(plan, ExrImages(plan, tmp_path), shading="cycles")
-
-
-def test_a_folder_without_bundles_is_told(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="holds no bundle"):
-        planned_tasks(RunFolder(tmp_path), SETTINGS, 0)
-
-
-def test_other_settings_do_not_overwrite_samples(tmp_path: Path) -> None:
-    bundle = tmp_path / "assets" / "chest" / "000001"
-    bundle.mkdir(parents=True)
-    (bundle / "manifest.json").write_text("{}")
-    folder = RunFolder(tmp_path)
-    (task,) = planned_tasks(folder, SETTINGS, 0)
-    assert task.asset_id == "chest_000001"
-    assert not is_staged(task)
-    assert planned_tasks(folder, SETTINGS, 0) == [task]
-    remembered = json.loads((tmp_path / "samples" / "settings.json").read_text())
-    assert remembered["settings"]["size"] == 32
-    with pytest.raises(UsageError, match=r"rendered with other settings.*delete that folder"):
-        planned_tasks(folder, Settings(size=64), 0)
-    with pytest.raises(UsageError, match="other seed"):
-        planned_tasks(folder, SETTINGS, 1)
-
-
-def test_a_half_written_sample_is_rendered_again(tmp_path: Path) -> None:
-    bundle = tmp_path / "assets" / "chest" / "000001"
-    bundle.mkdir(parents=True)
-    (bundle / "manifest.json").write_text("{}")
-    (task,) = planned_tasks(RunFolder(tmp_path), SETTINGS, 0)
-    task.sample.parent.mkdir(parents=True)
-    task.sample.write_bytes(b"half a tar")
-    assert not is_staged(task)
