@@ -24,6 +24,21 @@ def joint_motion(joint: Joint, q: float) -> Floats:
     return rigid(rotation, origin - rotation @ origin)
 
 
+def joint_motions(joint: Joint, q: Floats) -> Floats:
+    """(K, 4, 4) motions of the child relative to its parent at each of (K,) values."""
+    poses = np.tile(np.eye(4), (len(q), 1, 1))
+    if joint.type == "prismatic":
+        poses[:, :3, 3] = q[:, None] * joint.axis
+        return poses
+    x, y, z = joint.axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    half = np.sin(q / 2.0)[:, None, None]
+    turns = np.eye(3) + np.sin(q)[:, None, None] * cross + 2.0 * half * half * (cross @ cross)
+    origin = np.asarray(joint.origin)
+    poses[:, :3, :3], poses[:, :3, 3] = turns, origin - turns @ origin
+    return poses
+
+
 def resolved(joints: Sequence[Joint], state: State) -> dict[str, float]:
     """q of every joint: named ones as given, mimics from their leader, all others at rest.
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import manifold3d as m3
 import numpy as np
@@ -29,7 +30,7 @@ class Shape:
         rest: (B, 2, 3) bounds of each body, m.
     """
 
-    bodies: tuple[m3.Manifold, ...]
+    bodies: Sequence[m3.Manifold]
     points: Floats
     starts: NDArray[np.intp]
     rest: Floats
@@ -68,14 +69,41 @@ def shape_of_mesh(mesh: TriMesh) -> Shape:
 
     A body that is not closed keeps its place with a status other than `NoError`; it never overlaps.
     """
-    manifolds, points = [], []
-    cuts = np.flatnonzero(np.diff(np.asarray(mesh.body))) + 1
-    for faces in np.split(mesh.faces, cuts):
-        first, last = int(faces.min()), int(faces.max()) + 1
-        own = mesh.vertices[first:last].copy()  # manifold3d refuses read-only arrays.
-        manifolds.append(m3.Manifold(m3.Mesh64(own, (faces - first).astype(np.uint64))))
-        points.append(own)
-    return _shape(manifolds, points)
+    cuts = np.concatenate([[0], np.flatnonzero(np.diff(np.asarray(mesh.body))) + 1])
+    starts = np.minimum.reduceat(mesh.faces.min(axis=1), cuts).astype(np.intp)
+    lower = np.minimum.reduceat(mesh.vertices, starts, axis=0)
+    upper = np.maximum.reduceat(mesh.vertices, starts, axis=0)
+    return Shape(
+        bodies=MeshBodies(mesh, cuts, starts),
+        points=mesh.vertices,
+        starts=starts,
+        rest=np.stack([lower, upper], axis=1),
+    )
+
+
+class MeshBodies(Sequence[m3.Manifold]):
+    """The bodies of a mesh as exact solids, each made when first asked for: most meet no other."""
+
+    def __init__(self, mesh: TriMesh, cuts: NDArray[np.intp], starts: NDArray[np.intp]) -> None:
+        self._mesh = mesh
+        self._faces = [*cuts.tolist(), len(mesh.faces)]
+        self._vertices = [*starts.tolist(), len(mesh.vertices)]
+        self._made: dict[int, m3.Manifold] = {}
+
+    def __len__(self) -> int:
+        return len(self._faces) - 1
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(len(self)))]
+        index = range(len(self))[index]
+        if index not in self._made:
+            first, last = self._vertices[index : index + 2]
+            begin, end = self._faces[index : index + 2]
+            own = self._mesh.vertices[first:last].copy()  # manifold3d refuses read-only arrays.
+            faces = (self._mesh.faces[begin:end] - first).astype(np.uint64)
+            self._made[index] = m3.Manifold(m3.Mesh64(own, faces))
+        return self._made[index]
 
 
 def _shape(manifolds: Sequence[m3.Manifold], points: Sequence[Floats]) -> Shape:

@@ -72,6 +72,14 @@ def open_edges(faces: Ints) -> int:
     return int(np.abs(np.bincount(index, weights=sign)).sum())
 
 
+def closed(faces: Ints) -> bool:
+    """Whether each directed edge has as many opposite twins: `open_edges` is 0, told sooner."""
+    start, end = faces.astype(np.int64), np.roll(faces, -1, axis=1).astype(np.int64)
+    span = int(faces.max()) + 1
+    return bool(np.array_equal(np.sort(start * span + end, axis=None),
+                               np.sort(end * span + start, axis=None)))  # fmt: skip
+
+
 def welded(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
     """Equal vertices merged and the triangles that thereby collapse dropped; stays closed."""
     unique, index = np.unique(vertices, axis=0, return_inverse=True)

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import logging
 import resource
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -20,6 +21,8 @@ from artgen.validate.pictures import Picture, pictures_of
 from artgen.validate.read import read_subject
 from artgen.validate.report import Finding, Report, report_from_json
 from artgen.validate.subject import Source, Subject
+
+log = logging.getLogger(__name__)
 
 MEMORY = 8 * 2**30
 """Bytes of addresses that a process may ask for; a file that states huge counts fails in its own
@@ -84,8 +87,9 @@ def judge(task: Task) -> Judgement:
         return Judgement(source=task.source, report=kept, again=True)
     try:
         report = run_levels(subject, LEVELS, task.selection)
-    except (MemoryError, RecursionError) as error:
-        return _lost(task, f"it asked for too much: {error!r}")
+    except Exception as error:  # One asset that no check foresaw must not end the run.
+        log.exception("%s: a check failed", task.asset_id)
+        return _lost(task, f"a check failed: {error!r}")
     if place is not None:
         write_json(place, report.as_json())
     drawn = tuple(pictures_of(subject, report)) if task.drawn else ()

@@ -121,6 +121,7 @@ LEVELS: tuple[Level[Subject], ...] = (
         name="L4 clearance",
         needs=("L4 kinematics", "L1 meshes"),
         checks=(
+            Check(motion.passages, ("motion.passage",), ("collision",)),
             Check(motion.collisions, ("motion.collision",), ("collision",)),
             Check(motion.exact_overlaps, ("motion.overlap",), SEEN),
         ),

@@ -119,6 +119,8 @@ def told(judgement: Judgement) -> Iterator[str]:
     yield f"{'valid  ' if report.ok else 'INVALID'}  {report.asset}  {place}"
     for finding in report.findings:
         yield f"    {finding}"
+    for note in report.notes:
+        yield f"    {note.name}: {note.text}"
     for reason, names in reasons(report).items():
         yield f"    not checked: {', '.join(names)}: {reason}"
 

@@ -9,7 +9,7 @@ from artgen.articulation.types import Joint
 from artgen.core.mesh import Floats
 from artgen.validate.bounds import Bounds
 from artgen.validate.bundle_subject import BundleSubject
-from artgen.validate.physics import simulating, warnings_of
+from artgen.validate.physics import coarse_step, simulating, warnings_of
 from artgen.validate.report import Finding
 from artgen.validate.subject import Subject
 
@@ -30,6 +30,7 @@ def settles(subject: Subject) -> Iterator[Finding]:
     # Contact is most of a step's time; where nothing touches at rest, it cannot act there.
     off = CONTACT if data.ncon == 0 else 0
     with simulating(model, off=off):
+        model.opt.timestep = coarse_step(model)
         mujoco.mj_step(model, data, nstep=round(SETTLE_SECONDS / model.opt.timestep))
     for name in warnings_of(data):
         yield _settle_finding("simulation", name, "no warning", "the simulation is unstable")

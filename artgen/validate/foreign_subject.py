@@ -11,6 +11,7 @@ from artgen.articulation.types import Joint, Precondition
 from artgen.core.errors import ArtgenError
 from artgen.core.mesh import TriMesh
 from artgen.validate.assembly import Assembly, Geometry, merged, moved
+from artgen.validate.passages import found_passages
 from artgen.validate.physics import compiled_spec
 from artgen.validate.subject import Link, Subject, SubjectPart
 
@@ -68,6 +69,14 @@ class ForeignSubject(Subject):
     def preconditions(self) -> tuple[Precondition, ...]:
         """None: only manifests state them."""
         return ()
+
+    @cached_property
+    def passages(self) -> tuple[Precondition, ...]:
+        """Joints whose parts meet others on their way, unless those are open."""
+        if self.lacks("collision"):
+            return ()
+        owners = {name: link.part for name, link in self.links.items()}
+        return found_passages(self.simulated, self.parts[0].name, self.joints, owners)
 
     @property
     def links(self) -> Mapping[str, Link]:

@@ -89,7 +89,7 @@ def centers(subject: Subject) -> Iterator[Finding]:
     for part in subject.parts:
         if part.mass is None or part.name not in subject.meshes:
             continue  # Told by `densities`.
-        lower, upper = subject.meshes[part.name].bounds
+        lower, upper = subject.boxes[part.name]
         inside = np.minimum(upper - part.mass.center, part.mass.center - lower)
         if inside.min() <= 0.0:
             cause = "the center is stated in another frame"

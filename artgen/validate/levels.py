@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from time import process_time
 from typing import Generic, Protocol, TypeVar
 
-from artgen.validate.report import Finding, Report, Skipped
+from artgen.validate.report import Finding, Note, Report, Skipped
 
 
 class Judged(Protocol):
@@ -27,7 +27,8 @@ class Judged(Protocol):
 
 
 S = TypeVar("S", bound=Judged)
-Said = Iterable[Finding | Skipped]
+Saying = Finding | Skipped | Note
+Said = Iterable[Saying]
 
 
 @dataclass(frozen=True)
@@ -84,34 +85,29 @@ def run_levels(subject: S, levels: Iterable[Level[S]], selection: Selection) -> 
     """
     levels = list(levels)
     wanted = needed_levels(levels, selection)
-    findings: list[Finding] = []
-    skipped: list[Skipped] = []
+    said: list[Saying] = []
     judged: list[str] = []
     seconds: dict[str, float] = {}
     failed: set[str] = set()
-    for level in levels:
-        if level.name not in wanted:
-            continue
+    for level in (level for level in levels if level.name in wanted):
         if blockers := [name for name in level.needs if name in failed]:
             reason = f"not judged: relies on {' and '.join(blockers)}, which did not pass"
-            skipped.append(Skipped(name=level.name, reason=reason))
+            said.append(Skipped(name=level.name, reason=reason))
             failed.add(level.name)
             continue
-        began, before = process_time(), len(findings)
-        whole = level.name in wanted and wanted[level.name]
+        began, before = process_time(), len(said)
         for check in level.checks:
-            if not whole and not selection.wants(level.name, check):
-                continue
-            for item in judged_or_skipped(subject, check, judged):
-                (findings if isinstance(item, Finding) else skipped).append(item)  # type: ignore[arg-type]
+            if wanted[level.name] or selection.wants(level.name, check):
+                said += judged_or_skipped(subject, check, judged)
         seconds[level.name] = process_time() - began
-        if len(findings) > before:
+        if any(isinstance(item, Finding) for item in said[before:]):
             failed.add(level.name)
     return Report(
         asset=subject.name,
         format=subject.format,
-        findings=tuple(findings),
-        skipped=tuple(skipped),
+        findings=tuple(item for item in said if isinstance(item, Finding)),
+        skipped=tuple(item for item in said if isinstance(item, Skipped)),
+        notes=tuple(item for item in said if isinstance(item, Note)),
         judged=tuple(judged),
         seconds=seconds,
     )
@@ -131,9 +127,7 @@ def needed_levels(levels: Collection[Level[S]], selection: Selection) -> dict[st
     return wanted
 
 
-def judged_or_skipped(
-    subject: S, check: Check[S], judged: list[str]
-) -> Iterator[Finding | Skipped]:
+def judged_or_skipped(subject: S, check: Check[S], judged: list[str]) -> Iterator[Saying]:
     """What a check says; where the source cannot say what it needs, that alone."""
     for need in check.needs:
         if (reason := subject.lacks(need)) is not None:

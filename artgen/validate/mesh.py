@@ -1,13 +1,15 @@
 """L1: visual meshes are closed, outward, of sensible size; the other files show the same parts."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import TriMesh
 from artgen.export.layout import GLB
-from artgen.geometry.convex import as_box, convexity_gap
+from artgen.geometry.convex import convexity_gap
+from artgen.geometry.measure import closed as edges_close
 from artgen.geometry.measure import open_edges
 from artgen.validate.bounds import Bound
 from artgen.validate.bundle_subject import BundleSubject
@@ -35,6 +37,8 @@ def readable(subject: Subject) -> Iterator[Finding]:
 def closed(subject: Subject) -> Iterator[Finding]:
     """Every body is an oriented closed 2-manifold (manifold3d accepts it)."""
     for name, shape in subject.shapes.items():
+        if edges_close(subject.meshes[name].faces):
+            continue  # Nothing else keeps manifold3d from accepting finite triangles.
         for index, body in enumerate(shape.bodies):
             if (status := body.status().name) != "NoError":
                 value, cause = _diagnosis(subject.meshes[name], index)
@@ -78,8 +82,8 @@ def volumes(subject: Subject) -> Iterator[Finding]:
 
 def sizes(subject: Subject) -> Iterator[Finding]:
     """Parts are neither crumbs nor houses."""
-    for name, mesh in subject.meshes.items():
-        longest = float(np.diff(mesh.bounds, axis=0).max())
+    for name, box in subject.boxes.items():
+        longest = float(np.diff(box, axis=0).max())
         if not subject.bounds.smallest.value <= longest <= subject.bounds.largest.value:
             yield Finding(
                 check="mesh.size",
@@ -130,7 +134,7 @@ def stated(subject: BundleSubject) -> Iterator[Finding]:
         mesh = subject.meshes[part.name]
         found = {
             "bounds": (
-                float(np.abs(mesh.bounds - part.bounds).max()),
+                float(np.abs(subject.boxes[part.name] - part.bounds).max()),
                 subject.bounds.bounds_match.value,
             ),
             "triangles": (abs(len(mesh.faces) - part.triangles), 0),
@@ -170,7 +174,7 @@ def glb(subject: BundleSubject) -> Iterator[Finding]:
         if part.name not in found:
             yield _glb_finding(part.name, "no node with geometry", "a node of the part's name")
             continue
-        worst = float(np.abs(found[part.name] - subject.meshes[part.name].bounds).max())
+        worst = float(np.abs(found[part.name] - subject.boxes[part.name]).max())
         if not worst <= subject.bounds.glb_bounds.value:
             yield _glb_finding(
                 part.name, worst, f"bounds of the OBJ within {subject.bounds.glb_bounds.value:g} m"
@@ -193,10 +197,11 @@ def collision(subject: Subject) -> Iterator[Finding]:
     reach, flat = subject.bounds.collision_reach, subject.bounds.hull_gap
     margin = np.array([[-1.0], [1.0]]) * reach.value
     for part, pieces in subject.collision.items():
+        boxes = are_boxes(pieces)
         for index, piece in enumerate(pieces):
             label = f"{part}, piece {index}"
             if part in subject.meshes:
-                lower, upper = subject.meshes[part].bounds + margin
+                lower, upper = subject.boxes[part] + margin
                 low, high = piece.bounds
                 out = float(max((lower - low).max(), (high - upper).max()))
                 if out > 0.0:
@@ -204,11 +209,24 @@ def collision(subject: Subject) -> Iterator[Finding]:
                     yield _piece_finding(
                         "mesh.reach", label, out + reach.value, reach, cause, remedy
                     )
-            if len(piece.vertices) == 8 and as_box(piece) is not None:
+            if boxes[index]:
                 continue
             if (gap := convexity_gap(piece)) > flat.value:
                 cause = "simulators take its hull and fill the hollow"
                 yield _piece_finding("mesh.convex", label, gap, flat, cause, "author convex pieces")
+
+
+def are_boxes(pieces: Sequence[TriMesh]) -> NDArray[np.bool_]:
+    """(P,) which pieces have the eight corners of their own bounds for vertices."""
+    found = np.zeros(len(pieces), bool)
+    eight = [k for k, piece in enumerate(pieces) if len(piece.vertices) == 8]
+    if eight:
+        corners = np.array([pieces[k].vertices for k in eight])
+        lower, upper = corners.min(axis=1, keepdims=True), corners.max(axis=1, keepdims=True)
+        at_corner = (corners == lower) | (corners == upper)
+        octant = np.sort((corners == upper) @ (4, 2, 1), axis=1)
+        found[eight] = at_corner.all(axis=(1, 2)) & (octant == np.arange(8)).all(axis=1)
+    return found
 
 
 def _piece_finding(

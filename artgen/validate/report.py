@@ -53,6 +53,14 @@ class Skipped:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Note:
+    """What is worth knowing and breaks no rule."""
+
+    name: str
+    text: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class Report:
     """The verdict on one asset; no findings means valid.
 
@@ -66,6 +74,7 @@ class Report:
     asset: str
     findings: tuple[Finding, ...]
     skipped: tuple[Skipped, ...] = ()
+    notes: tuple[Note, ...] = ()
     format: str = "bundle"
     judged: tuple[str, ...] = ()
     seconds: Mapping[str, float] = field(default_factory=dict, compare=False)
@@ -84,6 +93,7 @@ class Report:
             "ok": self.ok,
             "judged": list(self.judged),
             "findings": [plain(finding) for finding in self.findings],
+            "notes": [plain(note) for note in self.notes],
             "skipped": [plain(skipped) for skipped in self.skipped],
         }
 
@@ -96,11 +106,12 @@ def report_from_json(stated: Mapping[str, object]) -> Report:
     """
     if stated["schema"] != SCHEMA:
         raise ValueError(f"schema {stated['schema']!r} instead of {SCHEMA!r}")
-    rows = {key: list(stated[key]) for key in ("findings", "skipped", "judged")}  # type: ignore[call-overload]
+    rows = {key: list(stated[key]) for key in ("findings", "skipped", "notes", "judged")}  # type: ignore[call-overload]
     return Report(
         asset=str(stated["asset"]),
         format=str(stated["format"]),
         judged=tuple(rows["judged"]),
         findings=tuple(Finding(**row) for row in rows["findings"]),
         skipped=tuple(Skipped(**row) for row in rows["skipped"]),
+        notes=tuple(Note(**row) for row in rows["notes"]),
     )

@@ -1,6 +1,7 @@
 """L5: the object is what its category says: parts in order, closed at rest, of real size."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from artgen.articulation.types import Joint
 from artgen.core.errors import RuleError
 from artgen.core.mesh import Floats
 from artgen.geometry.clearance import Mover, overlaps
-from artgen.rules import Band, load_rule
+from artgen.rules import Band, CategoryRule, load_rule
 from artgen.validate.bundle_subject import BundleSubject
 from artgen.validate.report import Finding, Skipped
 from artgen.validate.subject import Subject
@@ -22,7 +23,7 @@ PUSHES = (0.01, 0.02, 0.04, 0.08, 0.15)
 def order(subject: Subject) -> Iterator[Finding]:
     """Parts stand in canonical order: low to high, front to back, left to right."""
     parts = subject.parts
-    expected = canonical_order([subject.meshes[part.name].bounds for part in parts])
+    expected = canonical_order([subject.boxes[part.name] for part in parts])
     for place, index in enumerate(expected):
         if place != index:
             yield _finding(
@@ -60,7 +61,7 @@ def ground(subject: Subject) -> Iterator[Finding]:
 
 def object_bounds(subject: Subject) -> Floats:
     """(2, 3) bounds of all visual meshes at rest, m."""
-    boxes = np.array([mesh.bounds for mesh in subject.meshes.values()])
+    boxes = np.array(list(subject.boxes.values()))
     return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
 
@@ -68,7 +69,7 @@ def bands(subject: BundleSubject) -> Iterator[Finding | Skipped]:
     """Width, depth, height and mass lie in the category's bands."""
     category = subject.bundle.category
     try:
-        rule = load_rule(category)
+        rule = packaged_rule(category)
     except RuleError as error:
         yield Skipped(name="semantics.band", reason=f"no bands for {category!r}: {error}")
         return
@@ -76,6 +77,12 @@ def bands(subject: BundleSubject) -> Iterator[Finding | Skipped]:
     mass = sum(part.mass.mass for part in subject.bundle.parts)
     found = {"width": width, "depth": depth, "height": height, "mass": mass}
     yield from band_findings(rule.file, found, rule.bands)
+
+
+@cache
+def packaged_rule(category: str) -> CategoryRule:
+    """The rule that comes with the package; it cannot change while a process runs."""
+    return load_rule(category)
 
 
 def band_findings(
@@ -109,8 +116,10 @@ def closed_at_rest(subject: Subject) -> Iterator[Finding]:
             continue  # Told where the mesh level lists parts without a mesh.
         reach = joint.limit.upper - joint.limit.lower
         states = tuple({joint.name: joint.limit.lower - share * reach} for share in PUSHES)
-        pair = _pair_movers(subject, joint, Sweep(joint=joint.name, states=({}, *states)))
-        distance = distances(*pair)
+        parent, child = pair = _pair_movers(
+            subject, joint, Sweep(joint=joint.name, states=({}, *states))
+        )
+        distance = distances(parent, child, subject.volumes[joint.child])
         play = distance[0] - distance
         closer = np.flatnonzero(play > bounds.closed_play.value)
         if not len(closer) or _crosses(pair, range(1, closer[0] + 1), bounds.overlap.value):
@@ -129,14 +138,13 @@ def closed_at_rest(subject: Subject) -> Iterator[Finding]:
         )
 
 
-def distances(parent: Mover, child: Mover) -> Floats:
+def distances(parent: Mover, child: Mover, volume: Floats) -> Floats:
     """(K,) mean distance of the child's volume from the parent's box at rest, m; bodies count by
-    their middles."""
+    their middles, each by its `volume` (B,) m3."""
     lower, upper = parent.shape.rest[:, 0].min(axis=0), parent.shape.rest[:, 1].max(axis=0)
     middles = child.shape.rest.mean(axis=1)
     moved = middles @ child.poses[:, :3, :3].transpose(0, 2, 1) + child.poses[:, None, :3, 3]
     outside = np.maximum(lower - moved, moved - upper).clip(min=0.0)
-    volume = np.array([body.volume() for body in child.shape.bodies])
     return np.asarray(np.linalg.norm(outside, axis=2) @ volume / volume.sum())
 
 
@@ -164,7 +172,7 @@ def hinges(subject: Subject) -> Iterator[Finding]:
     for joint in subject.joints:
         if joint.child not in subject.meshes:
             continue  # Told where the mesh level lists parts without a mesh.
-        box = subject.meshes[joint.child].bounds
+        box = subject.boxes[joint.child]
         if joint.type == "prismatic" and joint.limit is not None:
             length = float(np.abs(joint.axis) @ np.diff(box, axis=0)[0])
             share = (joint.limit.upper - joint.limit.lower) / length

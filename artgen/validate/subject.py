@@ -115,6 +115,12 @@ class Subject(ABC):
         """Joints that may move only while others are open."""
 
     @property
+    def passages(self) -> tuple[Precondition, ...]:
+        """The preconditions that motion is judged under: those stated, or found where the format
+        cannot state any."""
+        return self.preconditions
+
+    @property
     @abstractmethod
     def links(self) -> Mapping[str, Link]:
         """Body name to its part and frame, for every body of the compiled models."""
@@ -154,6 +160,11 @@ class Subject(ABC):
         return {name: pieces for name, pieces in read.items() if isinstance(pieces, tuple)}
 
     @cached_property
+    def boxes(self) -> Mapping[str, Floats]:
+        """Part name to the (2, 3) bounds of its visual mesh at rest, m."""
+        return {name: mesh.bounds for name, mesh in self.meshes.items()}
+
+    @cached_property
     def shapes(self) -> Mapping[str, Shape]:
         """Part name to its closed bodies."""
         return {name: shape_of_mesh(mesh) for name, mesh in self.meshes.items()}
@@ -170,7 +181,7 @@ class Subject(ABC):
 
 
 def body_volumes(mesh: TriMesh) -> Floats:
-    """(B,) signed volume of each body, m3, about the middle of the mesh."""
-    a, b, c = (mesh.triangles - mesh.bounds.mean(axis=0)).transpose(1, 0, 2)
+    """(B,) signed volume of each body, m3, about one of its vertices."""
+    a, b, c = (mesh.triangles - mesh.vertices[0]).transpose(1, 0, 2)
     signed = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
     return np.asarray(np.bincount(np.asarray(mesh.body), weights=signed), np.float64)

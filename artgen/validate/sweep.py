@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from artgen.articulation.kinematics import forward_kinematics, joint_motion, resolved
+from artgen.articulation.kinematics import forward_kinematics, joint_motions, resolved
 from artgen.articulation.states import required_state
 from artgen.articulation.types import Joint, Precondition, State
 from artgen.core.mesh import Floats
@@ -152,11 +152,10 @@ def sweep_poses(base: str, joints: Sequence[Joint], sweep: Sweep) -> dict[str, F
     first = forward_kinematics(base, joints, sweep.states[0])
     count = len(sweep.states)
     poses = {name: np.repeat(pose[None], count, axis=0) for name, pose in first.items()}
-    chain = _moved_by(sweep.joint, joints)
-    for k, state in enumerate(sweep.states[1:], start=1):
-        q = resolved(joints, state)
-        for joint in chain:
-            poses[joint.child][k] = poses[joint.parent][k] @ joint_motion(joint, q[joint.name])
+    q = [resolved(joints, state) for state in sweep.states]
+    for joint in _moved_by(sweep.joint, joints):
+        motions = joint_motions(joint, np.array([at[joint.name] for at in q]))
+        poses[joint.child] = poses[joint.parent] @ motions
     return poses
 
 
