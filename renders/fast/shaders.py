@@ -167,9 +167,10 @@ void main() {
     vec3 shown = arriving + BOUNCE * base * (sky_seen.x / open_sky.x) * (open - arriving);
     vec3 reflected = mix(vec3(specular), base, metal) * split.x + split.y;
     vec3 diffuse = base * (1.0 - metal) * (1.0 - (specular * split.x + split.y));
-    float smooth_share = (1.0 - rough) * (sqrt(1.0 - rough) + rough);
+    float smooth_share = 1.0 - rough * rough;
     vec3 sheen = mirror(mix(n, reflect(-to_eye, n), smooth_share), rough);
-    sheen *= share(sky_seen, reflect(-to_eye, n), 2.0);
+    float clear = share(sky_seen, reflect(-to_eye, n), 3.0 - rough);
+    sheen = mix(BOUNCE * base * (sky_seen.x / open_sky.x) * open, sheen, clear);
     light = vec4(diffuse * shown + reflected * sheen + emitted, 0.0);
 }
 """
