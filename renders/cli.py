@@ -14,6 +14,7 @@ from rich.console import Console
 
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import write_json
+from artgen.dataset.listing import BUNDLES
 from artgen.progress import progress
 from artgen.run_folder import RunFolder, locked, opened, run_log
 from artgen.system_libraries import check_libraries
@@ -112,13 +113,19 @@ def _rendering(root: Path, command: Render) -> Iterator[RunFolder]:
 
 
 def _write_sources(folder: RunFolder, source: Path, found: Sequence[Found]) -> None:
-    """bundles.json of a rendering that lies apart from its bundles: asset id to their folder."""
-    if folder.root.resolve() != source.resolve():
-        root = folder.root.resolve()
-        places = {
-            bundle.asset_id: os.path.relpath(bundle.folder.resolve(), root) for bundle in found
+    """bundles.json of a rendering that lies apart from its bundles; `artgen shard` reads it."""
+    if folder.root.resolve() == source.resolve():
+        return
+    root = folder.root.resolve()
+    known = {
+        bundle.asset_id: {
+            "bundle": Path(os.path.relpath(bundle.folder.resolve(), root)).as_posix(),
+            "category": bundle.category,
+            "sample": (Path("samples") / bundle.sample).as_posix(),
         }
-        write_json(folder.root / "bundles.json", places)
+        for bundle in found
+    }
+    write_json(folder.root / BUNDLES, known)
 
 
 def render_all(folder: RunFolder, tasks: Sequence[RenderTask], *, workers: int) -> list[Rendered]:

@@ -5,6 +5,7 @@ Rows are sorted by asset id and files are zstd-compressed; equal assets give equ
 
 import json
 import math
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ import pyarrow.parquet as pq
 
 from artgen.core.errors import ShardError
 from artgen.core.jsonio import replace_atomically
+from artgen.dataset.listing import Listed, listed_assets
 from artgen.dataset.packing import Packing
 from artgen.dataset.reader import open_shard
 from artgen.dataset.split import split_of
@@ -101,25 +103,16 @@ def write_catalog(out: Path, packing: Packing) -> tuple[Path, Path]:
 def asset_rows(out: Path, packing: Packing) -> Iterator[dict[str, Any]]:
     """One row per asset that passed or failed."""
     shard_of = packing.shard_of
-    for verdict in ("valid", "failed"):
-        for folder in asset_folders(out, verdict):
-            asset_id = f"{folder.parent.name}_{folder.name}"
-            yield _bundle_columns(folder) | {
-                "asset_id": asset_id,
-                "category": folder.parent.name,
-                "index": int(folder.name),
-                "split": split_of(asset_id),
-                "verdict": verdict,
-                "reason": packing.left_out.get(asset_id),
-                "folder": folder.relative_to(out).as_posix(),
-                "shard": shard_of.get(asset_id),
-            }
-
-
-def asset_folders(out: Path, verdict: str) -> list[Path]:
-    """Bundles at `assets/<category>/<index>` (valid) or `failed/<category>/<index>` (failed)."""
-    root = out / {"valid": "assets", "failed": "failed"}[verdict]
-    return sorted(path for path in root.glob("*/*") if path.is_dir() and path.name.isdigit())
+    for asset in listed_assets(out):
+        yield _bundle_columns(asset) | {
+            "asset_id": asset.asset_id,
+            "category": asset.category,
+            "split": split_of(asset.asset_id),
+            "verdict": "valid" if asset.valid else "failed",
+            "reason": packing.left_out.get(asset.asset_id),
+            "folder": Path(os.path.relpath(asset.bundle, out)).as_posix(),
+            "shard": shard_of.get(asset.asset_id),
+        }
 
 
 def sample_rows(shards: Path, packing: Packing) -> Iterator[dict[str, Any]]:
@@ -144,12 +137,23 @@ def sample_rows(shards: Path, packing: Packing) -> Iterator[dict[str, Any]]:
             )
 
 
-def _bundle_columns(folder: Path) -> dict[str, Any]:
-    """Columns from a bundle's manifest; nearly none for an asset that failed before it had one."""
-    path = folder / "manifest.json"
-    if not path.exists():
-        return {"parts": [], "joints": []}
-    facts = json.loads(path.read_text(encoding="utf-8"))
+def _bundle_columns(asset: Listed) -> dict[str, Any]:
+    """Columns from a bundle's manifest; nearly none for an asset that failed for lack of one."""
+    path = asset.bundle / "manifest.json"
+    number = asset.bundle.name
+    nothing: dict[str, Any] = {
+        "parts": [],
+        "joints": [],
+        "index": int(number) if number.isdigit() else None,
+    }
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        if not asset.valid:
+            return nothing
+        raise ShardError(f"{path}: cannot be read ({error}); make the asset again") from error
+    if facts.get("schema") != BUNDLE_SCHEMA and not asset.valid:
+        return nothing
     if facts.get("schema") != BUNDLE_SCHEMA:
         raise ShardError(
             f"{path}: bundle schema is {facts.get('schema')!r}, the catalog reads "
@@ -161,6 +165,7 @@ def _bundle_columns(folder: Path) -> dict[str, Any]:
     openings = [joint["upper_deg"] for joint in joints if joint["upper_deg"] is not None]
     return {
         "seed": facts.get("seed"),
+        "index": facts.get("index"),
         "mass": facts["mass"],
         "width": x1 - x0,
         "depth": y1 - y0,

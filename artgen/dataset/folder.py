@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from artgen.core.errors import ShardError
-from artgen.dataset.catalog import asset_folders, write_catalog
+from artgen.dataset.catalog import write_catalog
+from artgen.dataset.listing import listed_assets
 from artgen.dataset.packing import PER_SHARD, Packing, pack
 
 
@@ -45,18 +46,15 @@ def shard_folder(
 def packable(out: Path) -> tuple[list[Path], dict[str, str]]:
     """Staged samples of valid assets, and the reason for every asset that has none."""
     staged: list[Path] = []
-    left_out = {_asset_id(folder): _failure(folder) for folder in asset_folders(out, "failed")}
-    for folder in asset_folders(out, "valid"):
-        sample = out / "samples" / folder.parent.name / f"{folder.name}.tar"
-        if sample.exists():
-            staged.append(sample)
+    left_out: dict[str, str] = {}
+    for asset in listed_assets(out):
+        if asset.valid and asset.sample.exists():
+            staged.append(asset.sample)
+        elif asset.valid or asset.bundle.parent.parent != out / "failed":
+            left_out[asset.asset_id] = "not rendered"
         else:
-            left_out[_asset_id(folder)] = "not rendered"
+            left_out[asset.asset_id] = _failure(asset.bundle)
     return staged, left_out
-
-
-def _asset_id(folder: Path) -> str:
-    return f"{folder.parent.name}_{folder.name}"
 
 
 def _failure(folder: Path) -> str:

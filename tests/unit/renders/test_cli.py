@@ -6,9 +6,11 @@ import shutil
 from pathlib import Path
 
 import pytest
+from pyarrow import parquet
 
 from artgen.core.errors import UsageError
 from artgen.dataset import open_shard
+from artgen.dataset.cli import shard
 from artgen.export import Bundle
 from renders.cli import render
 
@@ -94,7 +96,11 @@ def test_any_folder_of_bundles_is_rendered_beside_itself(bundle: Bundle, tmp_pat
     beside = tmp_path / "scans-renders"
     assert (beside / "samples" / "chest" / "000001.tar").is_file()
     places = json.loads((beside / "bundles.json").read_text())
-    assert places == {"chest_000001": "../scans/deep/one"}
+    assert places["chest_000001"]["bundle"] == "../scans/deep/one"
+    assert shard([str(beside)]) == 0
+    (row,) = parquet.read_table(beside / "catalog" / "assets.parquet").to_pylist()
+    assert (row["asset_id"], row["folder"]) == ("chest_000001", "../scans/deep/one")
+    assert (row["index"], row["verdict"]) == (1, "valid")
 
 
 @pytest.mark.parametrize(
