@@ -39,7 +39,9 @@ class FastBackend:
         surfaces = {surface.name: surface for surface in plan.bundle.surfaces}
         light = shine(plan.job.rig, self._blur)
         opaque = [s for s in appearance.skins if surfaces[s.surface].transmission <= CLEAR]
-        hidden = occlusions(opaque, plan.passes.shots, plan.poses, light)
+        hidden = occlusions(
+            opaque, plan.passes.shots, plan.poses, light, size=max(plan.cameras[0].size)
+        )
         prepared = time.process_time()
         rasterizer = Rasterizer(
             self._context,

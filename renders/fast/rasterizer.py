@@ -198,34 +198,23 @@ class Rasterizer:
             if shade is not None and "grid" in program:
                 program["grid"] = shade.grid
         gl.cull_face = "back"
-        for piece in shown:
+        ordered = _near_to_far(shown, camera, poses)
+        for piece in ordered:
             if not piece.is_pane:
                 self._draw(piece, clip, poses[piece.skin.part])
-        self._blend([piece for piece in shown if piece.is_pane], camera, clip, poses)
+        self._blend([piece for piece in reversed(ordered) if piece.is_pane], clip, poses)
         raw = drawn.read(viewport=(0, 0, *fine), components=4, dtype="f4")
         return _filtered(np.frombuffer(raw, np.float32).reshape(fine[1], fine[0], 4))
 
-    def _blend(
-        self,
-        panes: Sequence[Piece],
-        camera: Camera,
-        clip: Floats,
-        poses: Mapping[str, Floats],
-    ) -> None:
-        """Panes over what is behind them, far to near; the far face of each before its near one."""
-        gl = self._context
+    def _blend(self, panes: Sequence[Piece], clip: Floats, poses: Mapping[str, Floats]) -> None:
+        """Panes from far to near over what is behind them; of each the far face first."""
+        gl, drawn = self._context, self._context.fbo
         gl.enable(moderngl.BLEND)
         gl.blend_func = THROUGH  # type: ignore[assignment]  # the stub knows two of the four
-        drawn = gl.fbo
         drawn.depth_mask = False
-
-        def distance(piece: Piece) -> float:
-            middle = apply(poses[piece.skin.part], piece.corners.mean(axis=0))
-            return float(apply(camera.camera_from_world, middle)[2])
-
-        for piece in sorted(panes, key=distance, reverse=True):
-            for side in ("front", "back"):
-                gl.cull_face = side
+        for piece in panes:
+            for hidden in ("front", "back"):
+                gl.cull_face = hidden
                 self._draw(piece, clip, poses[piece.skin.part])
         drawn.depth_mask = True
 
@@ -306,6 +295,18 @@ def clip_from_world(camera: Camera, box: Box, reach: tuple[float, float]) -> Flo
     projection[2, 2], projection[2, 3] = (far + near) / (far - near), -2 * far * near / (far - near)
     projection[3, 2] = 1.0
     return np.asarray(projection @ camera.camera_from_world)
+
+
+def _near_to_far(
+    pieces: Sequence[Piece], camera: Camera, poses: Mapping[str, Floats]
+) -> list[Piece]:
+    """Near surfaces first hide what is behind them before it is shaded; panes need the opposite."""
+
+    def depth(piece: Piece) -> float:
+        middle = apply(poses[piece.skin.part], piece.corners.mean(axis=0))
+        return float(apply(camera.camera_from_world, middle)[2])
+
+    return sorted(pieces, key=depth)
 
 
 def _reach(

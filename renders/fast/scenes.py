@@ -10,10 +10,12 @@ from renders.fast.light import Shine
 from renders.fast.occlusion import Cloud, Occlusion, occlusion, strewn
 from renders.glb import Skin
 
-WHOLE_CELLS = 48**3
-"""Cells of a grid around all parts: 15 to 30 mm wide for furniture."""
-PART_CELLS = 20**3
-"""Cells of a grid around one part."""
+PX_PER_CELL = 4
+"""Grids are as fine as images: this many pixels a cell, along a cube's side, within bounds."""
+WHOLE_CELLS = (24, 48)
+"""Along a cube's side, around all parts: 15 to 30 mm each for furniture at 256 px."""
+PART_CELLS = (12, 20)
+"""Around one part, which also fills fewer pixels."""
 FINENESS = 48.0
 """Points across the longest side of a part."""
 TOGETHER = 16
@@ -34,16 +36,20 @@ def occlusions(
     shots: Sequence[Shot],
     poses: Sequence[Mapping[str, Floats]],
     light: Shine,
+    *,
+    size: int,
 ) -> dict[Scene, Occlusion]:
     """By scene; scenes without an opaque surface are left out.
 
     Args:
         skins: the opaque ones.
+        size: of the images, px.
     """
     clouds = _part_clouds(skins)
     scenes = {scene_of(shot, poses): shot for shot in shots}
     found: dict[Scene, Occlusion] = {}
-    for alone, cells in ((False, WHOLE_CELLS), (True, PART_CELLS)):
+    for alone, (least, most) in ((False, WHOLE_CELLS), (True, PART_CELLS)):
+        side = min(max(size // PX_PER_CELL, least), most)
         wanted = {
             scene: cloud
             for scene, shot in scenes.items()
@@ -51,7 +57,7 @@ def occlusions(
             and (cloud := _posed(clouds, poses[shot.state], shot.part)) is not None
         }
         for some in _batches(list(wanted)):
-            grids = occlusion([wanted[scene] for scene in some], light, cells=cells)
+            grids = occlusion([wanted[scene] for scene in some], light, cells=side**3)
             found.update(zip(some, grids, strict=True))
     return found
 
