@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from artgen.core.mesh import Floats
 from artgen.defect_study.defect import Defect, Plant
 from artgen.export.layout import URDF
 
@@ -90,12 +91,12 @@ def without(path: str, *, of_joint: bool) -> Plant:
     return in_tree(change)
 
 
-def numbers(element: ET.Element, key: str) -> np.ndarray:
+def numbers(element: ET.Element, key: str) -> Floats:
     """The numbers of an attribute."""
     return np.array([float(word) for word in element.get(key, "0 0 0").split()])
 
 
-def put(element: ET.Element, key: str, values: np.ndarray) -> None:
+def put(element: ET.Element, key: str, values: Floats) -> None:
     """Write numbers to an attribute."""
     element.set(key, " ".join(repr(float(value)) for value in values))
 
@@ -155,6 +156,12 @@ def limits_times(factor: float, *kinds: str) -> Plant:
     return in_tree(change)
 
 
+def without_limits(root: ET.Element) -> None:
+    """A hinge or slide that ends nowhere."""
+    moved = joint(root, "revolute", "prismatic")
+    moved.remove(below(moved, "limit"))
+
+
 def rest_shifted(share: float) -> Plant:
     """Move the zero of the first joint by a share of its range, limits with it: rest is ajar."""
 
@@ -174,7 +181,7 @@ def rest_shifted(share: float) -> Plant:
     return in_tree(change)
 
 
-def inertia_set(change: Callable[[np.ndarray, float], np.ndarray]) -> Plant:
+def inertia_set(change: Callable[[Floats, float], Floats]) -> Plant:
     """Replace the tensor of the first moving link by a function of it and of the mass."""
 
     def edit(root: ET.Element) -> None:
@@ -255,22 +262,29 @@ def friction_above_effort(root: ET.Element) -> None:
 
 
 def collision_boxes(
-    change: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]],
+    change: Callable[[Floats, Floats], tuple[Floats, Floats]],
 ) -> Plant:
-    """Change center and size of every box of the first moving link."""
+    """Change center and size of every box of the moving link with the largest one."""
 
     def edit(root: ET.Element) -> None:
-        link = child_link(root, joint(root))
-        boxes = [c for c in link.findall("collision") if c.find("geometry/box") is not None]
-        if not boxes:
-            raise LookupError(f"no collision box in {link.get('name')}")
-        for piece in boxes:
+        links = [child_link(root, moved) for moved in root.iter("joint") if len(moved)]
+        for piece in max((_boxes(link) for link in links), key=_largest):
             box, origin = below(piece, "geometry/box"), below(piece, "origin")
             center, size = change(numbers(origin, "xyz"), numbers(box, "size"))
             put(origin, "xyz", center)
             put(box, "size", size)
 
     return in_tree(edit)
+
+
+def _boxes(link: ET.Element) -> list[ET.Element]:
+    return [c for c in link.findall("collision") if c.find("geometry/box") is not None]
+
+
+def _largest(boxes: list[ET.Element]) -> float:
+    """m3 of the largest box; 0 for none."""
+    sizes = [numbers(below(piece, "geometry/box"), "size") for piece in boxes]
+    return max((float(size.prod()) for size in sizes), default=0.0)
 
 
 def visual_as_collision(root: ET.Element) -> None:
@@ -321,12 +335,24 @@ MOTION = (
     ("pivot_nan", "a pivot that is not a number", on_joint("origin", "xyz", "nan 0 0")),
     ("limits_swapped", "lower above upper", limits_times(-1.0, "revolute", "prismatic")),
     ("limits_equal", "a joint that cannot move", limits_times(0.0, "revolute", "prismatic")),
-    ("limits_missing", "a hinge without limits", without("limit", of_joint=True)),
-    ("limits_nan", "a limit that is not a number", on_joint("limit", "upper", "nan")),
-    ("limits_infinite", "a limit without end", on_joint("limit", "upper", "inf")),
+    ("limits_missing", "a hinge without limits", in_tree(without_limits)),
+    (
+        "limits_nan",
+        "a limit that is not a number",
+        on_joint("limit", "upper", "nan", "revolute", "prismatic"),
+    ),
+    (
+        "limits_infinite",
+        "a limit without end",
+        on_joint("limit", "upper", "inf", "revolute", "prismatic"),
+    ),
     ("limits_degrees", "limits in degrees", limits_times(180 / math.pi, "revolute")),
     ("limits_beyond_turn", "a hinge of more than a turn", limits_times(6.0, "revolute")),
-    ("limits_past_zero", "rest lies outside the limits", on_joint("limit", "lower", "0.2")),
+    (
+        "limits_past_zero",
+        "rest lies outside the limits",
+        on_joint("limit", "lower", "0.2", "revolute", "prismatic"),
+    ),
     ("travel_too_long", "the drawer leaves its rails", limits_times(3.0, "prismatic")),
     ("rest_ajar", "drawn with the door ajar", rest_shifted(0.4)),
     ("effort_zero", "no force may be exerted", on_joint("limit", "effort", "0")),

@@ -27,12 +27,23 @@ class Planted:
 
     Attributes:
         check: the first check that named it; empty where none did.
+        crash: the exception that broke the validator, which counts as missed; empty where none.
     """
 
     defect: str
     format: str
     asset: str
     check: str
+    crash: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Noticed:
+    """Whether another checker refused a spoilt file."""
+
+    checker: str
+    defect: str
+    noticed: bool
 
 
 def foreign_copy(bundle: Path, folder: Path) -> None:
@@ -60,25 +71,33 @@ def judged(folder: Path, format_: str) -> Report:
 
 def caught(defect: Defect, bundles: Sequence[Path], scratch: Path) -> Iterator[Planted]:
     """Our verdict on one kind of defect, in every asset that has a place for it."""
-    folder = scratch / "planted"
-    for bundle in bundles:
+    for number, bundle in enumerate(bundles):
+        folder = scratch / f"{defect.name}_{number}"  # usd-core keeps files open by their path
         if planted(defect, bundle, folder):
-            report = judged(folder, defect.format)
+            check, crash = "", ""
+            try:
+                report = judged(folder, defect.format)
+                check = report.findings[0].check if report.findings else ""
+            except Exception as error:
+                crash = f"{type(error).__name__}: {error}"
             yield Planted(
                 defect=defect.name,
                 format=defect.format,
-                asset=bundle.name,
-                check=report.findings[0].check if report.findings else "",
+                asset=f"{bundle.parent.name}_{bundle.name}",
+                check=check,
+                crash=crash,
             )
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def false_alarms(bundles: Sequence[Path], scratch: Path) -> Iterator[tuple[str, str, Report]]:
     """(asset, format, report) of every format of every good asset."""
-    folder = scratch / "good"
-    for bundle in bundles:
+    for number, bundle in enumerate(bundles):
+        folder = scratch / f"good_{number}"
         foreign_copy(bundle, folder)
         for format_ in FILES:
             yield f"{bundle.parent.name}_{bundle.name}", format_, judged(folder, format_)
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def noticed_by_rivals(
@@ -103,7 +122,9 @@ def noticed_by_rivals(
     table: dict[str, dict[str, bool] | None] = {}
     for rival in rivals.NAMES:
         said = rivals.verdicts(rival, listed)
-        table[rival] = said and {
-            name: bool(said[bad]) and not said[good] for name, (bad, good) in files.items()
-        }
+        table[rival] = None
+        if said is not None:
+            table[rival] = {
+                name: bool(said[bad]) and not said[good] for name, (bad, good) in files.items()
+            }
     return table

@@ -38,7 +38,8 @@ def decomposed(mesh: TriMesh, *, pieces: int, timeout_s: float = 600.0) -> tuple
             threshold=THRESHOLD,
             iterations=ITERATIONS,
         )
-        command = [sys.executable, "-m", "artgen.geometry.decompose_process", source, target]
+        command = [sys.executable, "-m", "artgen.geometry.decompose_process"]
+        command += [str(source), str(target)]
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=timeout_s)
         except subprocess.TimeoutExpired as error:

@@ -8,6 +8,7 @@ through its range; at each pose the least distance between the two parts by MuJo
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -90,7 +91,7 @@ def door() -> Scene:
 def fidelity_rows(pieces: Sequence[int] = PIECES) -> Iterator[Measured]:
     """Every representation of every scene."""
     for scene in (drawer(), door()):
-        truth, exact_ms = timed(lambda scene=scene: exact_gaps(scene), repeats=1)
+        truth, exact_ms = timed(partial(exact_gaps, scene), repeats=1)
         yield Measured(
             scene=scene.name,
             setting="exact (manifold3d)",
@@ -102,7 +103,7 @@ def fidelity_rows(pieces: Sequence[int] = PIECES) -> Iterator[Measured]:
         for setting, represent in _representations(pieces):
             parts = [represent(part) for part in scene.parts]
             model = collision_model(parts)
-            found, cpu_ms = timed(lambda m=model, s=scene: distances(m, s.poses))
+            found, cpu_ms = timed(partial(distances, model, scene.poses))
             yield Measured(
                 scene=scene.name,
                 setting=setting,

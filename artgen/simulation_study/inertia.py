@@ -1,6 +1,7 @@
 """Mass and inertia that MuJoCo infers from a mesh in each mode, against the exact integral."""
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 
 import mujoco
 import numpy as np
@@ -37,10 +38,10 @@ def shapes() -> Mapping[str, TriMesh]:
 def inertia_rows() -> Iterator[Measured]:
     """Relative error of the mass, which that of the inertia follows, in every mode."""
     for name, mesh in shapes().items():
-        (mass, tensor), exact_ms = timed(lambda m=mesh: exact(m))
+        (mass, tensor), exact_ms = timed(partial(exact, mesh))
         yield _row(name, "float64 integral (ours)", 0.0, exact_ms)
         for mode, number in MODES.items():
-            (found, found_tensor), cpu_ms = timed(lambda m=mesh, n=number: by_mujoco(m, n))
+            (found, found_tensor), cpu_ms = timed(partial(by_mujoco, mesh, number))
             wrong = max(
                 abs(found - mass) / mass,
                 float(np.abs(found_tensor - tensor).max() / np.linalg.norm(tensor, 2)),

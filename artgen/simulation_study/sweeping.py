@@ -7,6 +7,7 @@ says how deep it must be to be seen for sure.
 
 import math
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -34,7 +35,7 @@ def sweep_rows() -> Iterator[Measured]:
     places = Stream(0, "study", "sweep").generator().uniform(0.1, 0.9, PLACES) * TURN
     leaf = shape_of_solids([slab((0.05, -0.01, 0), (RADIUS, 0.0, HEIGHT))])
     for poses in POSES:
-        missed, cpu_ms = timed(lambda n=poses: _deepest_missed(leaf, places.tolist(), n), repeats=1)
+        missed, cpu_ms = timed(partial(_deepest_missed, leaf, places.tolist(), poses), repeats=1)
         yield Measured(
             scene="door edge past a post",
             setting="poses",
