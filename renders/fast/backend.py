@@ -1,15 +1,20 @@
 """The fast backend: the images of a plan without Blender."""
 
 import time
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from artgen.transport import CLEAR
+from artgen.core.camera import Camera
+from artgen.core.mesh import Floats
+from artgen.core.surface import SurfaceSpec
+from artgen.imaging import Singles
+from artgen.render_job import LightRig, Shot
 from renders.fast.context import open_context
 from renders.fast.filtered import Blur
 from renders.fast.light import shine
-from renders.fast.rasterizer import Canvases, Programs, Rasterizer
+from renders.fast.rasterizer import Canvases, Programs, Rasterizer, is_pane
 from renders.fast.scenes import occlusions, scene_of
-from renders.glb import read_appearance
+from renders.glb import Appearance, read_appearance
 from renders.pictures import Pictures
 from renders.plan import RenderPlan
 
@@ -32,17 +37,39 @@ class FastBackend:
         """All images of the plan, drawn one after the other; no file is written.
 
         Raises:
-            RenderError: the GLB cannot be read, or the rig has too many lights.
+            RenderError: the GLB or the rig's environment cannot be read, or the rig has too many
+                lights.
         """
         started = time.process_time()
-        appearance = read_appearance(Path(plan.job.glb))
-        surfaces = {surface.name: surface for surface in plan.bundle.surfaces}
-        light = shine(plan.job.rig, self._blur)
-        opaque = [s for s in appearance.skins if surfaces[s.surface].transmission <= CLEAR]
-        hidden = occlusions(
-            opaque, plan.passes.shots, plan.poses, light, size=max(plan.cameras[0].size)
+        images = self.draw(
+            read_appearance(Path(plan.job.glb)),
+            {surface.name: surface for surface in plan.bundle.surfaces},
+            plan.job.rig,
+            cameras=plan.cameras,
+            poses=plan.poses,
+            shots=plan.passes.shots,
         )
-        prepared = time.process_time()
+        return Pictures(images=images, cpu={"draw": time.process_time() - started})
+
+    def draw(
+        self,
+        appearance: Appearance,
+        surfaces: Mapping[str, SurfaceSpec],
+        rig: LightRig,
+        *,
+        cameras: Sequence[Camera],
+        poses: Sequence[Mapping[str, Floats]],
+        shots: Sequence[Shot],
+    ) -> list[Singles]:
+        """For each shot (h, w, 4) float32 of its window, linear RGB premultiplied by alpha.
+
+        Args:
+            surfaces: by name.
+            poses: part name to `object_from_rest`, for each state.
+        """
+        light = shine(rig, self._blur)
+        opaque = [skin for skin in appearance.skins if not is_pane(surfaces[skin.surface])]
+        hidden = occlusions(opaque, shots, poses, light, size=max(cameras[0].size))
         rasterizer = Rasterizer(
             self._context,
             self._programs,
@@ -53,17 +80,15 @@ class FastBackend:
         )
         try:
             shades = {scene: rasterizer.shade(found) for scene, found in hidden.items()}
-            images = [
+            return [
                 rasterizer.draw(
-                    plan.cameras[shot.camera],
+                    cameras[shot.camera],
                     shot.box,
-                    plan.poses[shot.state],
+                    poses[shot.state],
                     part=shot.part,
-                    shade=shades.get(scene_of(shot, plan.poses)),
+                    shade=shades.get(scene_of(shot, poses)),
                 )
-                for shot in plan.passes.shots
+                for shot in shots
             ]
         finally:
             rasterizer.close()
-        cpu = {"shade": prepared - started, "draw": time.process_time() - prepared}
-        return Pictures(images=images, cpu=cpu)

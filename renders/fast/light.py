@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import OpenImageIO as oiio
 from numpy.typing import NDArray
 
 from artgen.core.errors import RenderError
@@ -55,7 +56,7 @@ def shine(rig: LightRig, blur: Blur) -> Shine:
     targets = np.array([light.target for light in rig.lights]).reshape(-1, 3)
     middle = targets.mean(axis=0) if len(targets) else np.zeros(3)
     away = np.linalg.norm(corners.mean(axis=1) - middle, axis=1)
-    around = sky_radiance(rig.sky, directions(HEIGHT))
+    around = surrounding(rig)
     seen = _with_lights(around, corners, radiance, middle)
     return Shine(
         around=around,
@@ -66,6 +67,27 @@ def shine(rig: LightRig, blur: Blur) -> Shine:
         middle=middle,
         reach=float(away.mean()) if len(away) else FAR,
     )
+
+
+def surrounding(rig: LightRig) -> Floats:
+    """(H, 2 H, 3) radiance around the object without the lights, H = HEIGHT.
+
+    Raises:
+        RenderError: the environment cannot be read.
+    """
+    if rig.environment is None:
+        return sky_radiance(rig.sky, directions(HEIGHT))
+    image = oiio.ImageBuf(rig.environment.file)
+    small = oiio.ImageBufAlgo.resize(
+        image, filtername="box", roi=oiio.ROI(0, 2 * HEIGHT, 0, HEIGHT, 0, 1, 0, 3)
+    )
+    pixels = small.get_pixels(oiio.FLOAT)
+    if image.has_error or pixels is None or pixels.shape != (HEIGHT, 2 * HEIGHT, 3):
+        raise RenderError(
+            f"{rig.environment.file} is no equirectangular RGB image ({image.geterror()}); "
+            "make it anew"
+        )
+    return np.maximum(np.asarray(pixels, np.float64), 0.0) * rig.environment.strength
 
 
 def sky_radiance(sky: Sky, towards: Floats) -> Floats:

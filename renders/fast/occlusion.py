@@ -113,13 +113,15 @@ def occlusion(clouds: Sequence[Cloud], light: Shine, *, cells: int) -> list[Occl
 
 
 def sky_factors(light: Shine) -> Floats:
-    """(14, 4) what the sky in each direction of AROUND adds to its mean and gradient."""
+    """(14, 4) what the sky in each direction of AROUND adds to its mean and gradient; the mean of
+    an open sky is 1. A black one counts as even: its mean still tells how open a place is."""
     towards = directions(HEIGHT)
     nearest = np.argmax(towards @ AROUND.T, axis=-1).ravel()
     weight = np.repeat(solid_angles(HEIGHT), 2 * HEIGHT)
     gray = np.bincount(nearest, weights=weight * light.around.mean(axis=-1).ravel())
+    share = SHARE * np.maximum(gray / np.bincount(nearest, weights=weight), 1e-6)
     basis = np.concatenate([np.ones((len(AROUND), 1)), AROUND], axis=1)
-    return np.asarray((SHARE * gray / np.bincount(nearest, weights=weight))[:, None] * basis)
+    return np.asarray((share / share.sum())[:, None] * basis)
 
 
 def _fitted(extent: Floats, cells: int) -> tuple[Floats, NDArray[np.intp]]:

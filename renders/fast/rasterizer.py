@@ -61,11 +61,6 @@ class Piece:
     images: tuple[moderngl.Texture, ...]
     corners: Floats
 
-    @property
-    def is_pane(self) -> bool:
-        """True where light passes."""
-        return self.surface.transmission > CLEAR
-
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shade:
@@ -200,9 +195,9 @@ class Rasterizer:
         gl.cull_face = "back"
         ordered = _near_to_far(shown, camera, poses)
         for piece in ordered:
-            if not piece.is_pane:
+            if not is_pane(piece.surface):
                 self._draw(piece, clip, poses[piece.skin.part])
-        self._blend([piece for piece in reversed(ordered) if piece.is_pane], clip, poses)
+        self._blend([piece for piece in reversed(ordered) if is_pane(piece.surface)], clip, poses)
         raw = drawn.read(viewport=(0, 0, *fine), components=4, dtype="f4")
         return _filtered(np.frombuffer(raw, np.float32).reshape(fine[1], fine[0], 4))
 
@@ -222,7 +217,7 @@ class Rasterizer:
         program, surface = piece.program, piece.surface
         _write(program, "clip_from_rest", (clip @ pose).T)
         _write(program, "object_from_rest", pose.T)
-        for key, value in _numbers(surface, piece.is_pane).items():
+        for key, value in _numbers(surface).items():
             if key in program:
                 program[key] = value
         for unit, texture in enumerate(piece.images, start=1):
@@ -230,7 +225,7 @@ class Rasterizer:
         piece.array.render()
 
     def _piece(self, skin: Skin, surface: SurfaceSpec, look: Look) -> Piece:
-        pane = surface.transmission > CLEAR
+        pane = is_pane(surface)
         kinds = [] if pane else [kind for kind in DEFINES if getattr(look, kind) is not None]
         program = self._programs.pane() if pane else self._programs.opaque(kinds)
         for unit, kind in enumerate(kinds, start=1):
@@ -357,8 +352,13 @@ def _write(program: moderngl.Program, name: str, values: Floats) -> None:
         uniform.write(np.asarray(values, "f4", order="C").tobytes())
 
 
-def _numbers(surface: SurfaceSpec, pane: bool) -> dict[str, object]:
-    if pane:
+def is_pane(surface: SurfaceSpec) -> bool:
+    """True where light passes: every glass is drawn as a thin pane."""
+    return surface.transmission > CLEAR
+
+
+def _numbers(surface: SurfaceSpec) -> dict[str, object]:
+    if is_pane(surface):
         return {
             "index": surface.ior,
             "tint": surface.color,

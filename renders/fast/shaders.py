@@ -164,13 +164,14 @@ void main() {
         open += from;
         arriving += k < 4 ? from * lights_seen[k] : from;
     }
-    vec3 shown = arriving + BOUNCE * base * (sky_seen.x / open_sky.x) * (open - arriving);
-    vec3 reflected = mix(vec3(specular), base, metal) * split.x + split.y;
-    vec3 diffuse = base * (1.0 - metal) * (1.0 - (specular * split.x + split.y));
+    vec3 shown = arriving + BOUNCE * base * sky_seen.x * (open - arriving);
+    vec3 straight = mix(vec3(specular), base, metal);
+    vec3 reflected = straight * split.x + min(50.0 * straight.g, 1.0) * split.y;
+    vec3 diffuse = base * (1.0 - metal) * (1.0 - reflected.g);
     float smooth_share = 1.0 - rough * rough;
     vec3 sheen = mirror(mix(n, reflect(-to_eye, n), smooth_share), rough);
     float clear = share(sky_seen, reflect(-to_eye, n), 3.0 - rough);
-    sheen = mix(BOUNCE * base * (sky_seen.x / open_sky.x) * open, sheen, clear);
+    sheen = mix(BOUNCE * base * sky_seen.x * open, sheen, clear);
     light = vec4(diffuse * shown + reflected * sheen + emitted, 0.0);
 }
 """
