@@ -21,7 +21,7 @@ def add_camera(name: str, camera: StatedCamera) -> bpy.types.Object:
     # Blender shifts the film, in widths of the image, so the principal point moves against it.
     data.shift_x = 0.5 - camera.principal[0] / width
     data.shift_y = (camera.principal[1] - height / 2.0) / width
-    data.clip_start, data.clip_end = 1e-3, 1e4
+    data.clip_start, data.clip_end = 1e-5, 1e6  # m; rays cost nothing more for either
     node = bpy.data.objects.new(name, data)
     node.matrix_world = Matrix(world_from_blender_camera(camera.camera_from_world))
     bpy.context.scene.collection.objects.link(node)

@@ -11,8 +11,8 @@ from artgen.core.transform import apply
 from artgen.export import Bundle
 
 SIZES = (1e-3, 1e3)
-"""m, diagonal of an object's box in all its states. Blender computes in float32 about the origin,
-and its cameras see from 1e-6 m to 1e5 m; a wrong unit (mm, inches) is the usual cause of others."""
+"""m, diagonal of an object's box in all its states. Blender's cameras see from 1e-5 m to 1e6 m, and
+images are the same from 4e-4 m to 1e3 m; a wrong unit (mm, inches) is the usual cause of others."""
 FAR = 100.0
 """An object's own size, times this, is the farthest from the origin that float32 renders well."""
 LEAST_PART = 1e-6

@@ -38,11 +38,23 @@ class SquareView:
     intrinsics: Floats
 
 
-def square_view(rgba: Bytes, intrinsics: Floats, *, size: int) -> SquareView:
-    """The foreground of an (H, W, 4) image, cropped to its square window, at `size` x `size` px."""
-    window = foreground_window(rgba[..., 3] > 0)
+def square_view(
+    rgba: Bytes, intrinsics: Floats, *, size: int, mask: NDArray[np.bool_] | None = None
+) -> SquareView:
+    """The foreground of an (H, W, 4) image, cropped to its square window, at `size` x `size` px.
+
+    Args:
+        intrinsics: (3, 3) px; the principal point may lie anywhere.
+        mask: (H, W) of the object, where alpha does not tell it: in a photograph, or over a caught
+            shadow. What lies outside becomes transparent.
+
+    Raises:
+        ShardError: there is no foreground.
+    """
+    shown = rgba if mask is None else np.where(mask[..., None], rgba, np.uint8(0))
+    window = foreground_window(shown[..., 3] > 0)
     return SquareView(
-        rgba=resampled(rgba, window, size=size),
+        rgba=resampled(shown, window, size=size),
         intrinsics=window_intrinsics(intrinsics, window, size=size),
     )
 

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
+from artgen.core.camera import framed, orbit_direction
 from artgen.core.errors import ShardError
 from artgen.dataset.preprocess import (
     Window,
@@ -94,3 +95,42 @@ def test_a_view_at_its_own_size_is_the_image():
 def test_an_empty_image_is_refused():
     with pytest.raises(ShardError, match="no foreground"):
         square_view(np.zeros((4, 4, 4), np.uint8), INTRINSICS, size=4)
+
+
+@given(
+    st.floats(-0.8, 0.8), st.floats(-0.8, 0.8), st.floats(-3, 3), st.sampled_from([32, 100, 300])
+)
+def test_of_a_camera_with_an_offset_principal_point_the_whole_object_is_kept(x, y, azimuth, size):
+    """Every point lands in the square, and the farthest along the longer side at its borders: the
+    mask knows whole pixels only, so up to one pixel of the source, which is `size / side` of the
+    square. 1e-9 px for the roundings."""
+    points = np.random.default_rng(3).uniform(-1, 1, (50, 3))
+    camera = framed(
+        points, direction=orbit_direction(azimuth, 0.3), fov=0.7, size=(96, 64), fill=0.9,
+        principal=(48 + 96 * x, 32 + 64 * y),
+    )  # fmt: skip
+    column, row = np.floor(camera.project(points)[:, :2]).astype(int).T
+    image = np.zeros((64, 96, 4), np.uint8)
+    image[row, column] = 255
+    view = square_view(image, camera.intrinsics, size=size)
+    local = points @ camera.camera_from_world[:3, :3].T + camera.camera_from_world[:3, 3]
+    pixels = (local / local[:, 2:]) @ view.intrinsics.T[:, :2]
+    step = size / max(np.ptp(column) + 1, np.ptp(row) + 1)
+    assert pixels.min() >= -1e-9
+    assert pixels.max() <= size + 1e-9
+    assert np.ptp(pixels, axis=0).max() >= size - 2 * step
+
+
+def test_a_mask_tells_the_object_where_alpha_does_not():
+    """A shadow on the floor has alpha but is no part of the object; a photograph is opaque."""
+    image = np.zeros((8, 8, 4), np.uint8)
+    image[2:4, 2:4] = (200, 100, 0, 255)
+    view = square_view(image, INTRINSICS, size=4)
+    shadow = image.copy()
+    shadow[4:, :, 3] = 90
+    photograph = np.full((8, 8, 4), 255, np.uint8)
+    photograph[2:4, 2:4] = (200, 100, 0, 255)
+    for other in (shadow, photograph):
+        masked = square_view(other, INTRINSICS, size=4, mask=image[..., 3] > 0)
+        np.testing.assert_array_equal(masked.rgba, view.rgba)
+        np.testing.assert_array_equal(masked.intrinsics, view.intrinsics)
