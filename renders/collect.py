@@ -123,4 +123,27 @@ def _meta(bundle: Bundle, plan: RenderPlan, shading: str) -> SampleMeta:
         versions=versions,
         shading=shading,
         light=plan.job.rig.name,
+        rendering=_rendering(plan),
     )
+
+
+def _rendering(plan: RenderPlan) -> dict[str, object]:
+    """What was asked for; of Cycles, what that came to, and which light transport was computed with
+    reasons."""
+    job = plan.job
+    if plan.settings.backend != "cycles":
+        return {"settings": plan.settings}
+    alone = [shot.samples for shot in job.shots if shot.part is not None]
+    return {
+        "settings": plan.settings,
+        "quality": {
+            "composite_paths": max(shot.samples for shot in job.shots if shot.part is None),
+            "alone_paths": max(alone, default=0),
+            "denoise": job.denoise,
+            "prefilter": job.prefilter,
+            "denoise_quality": job.denoise_quality,
+            "adaptive": job.adaptive,
+            "bounces": job.bounces,
+        },
+        "transport": job.transport.described(),
+    }

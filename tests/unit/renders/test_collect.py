@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from artgen.core.errors import RenderError
+from artgen.core.jsonio import plain
 from artgen.core.stream import Stream
 from artgen.dataset import open_shard
 from artgen.dataset.image_checks import check_images
@@ -50,6 +51,9 @@ def test_the_sample_says_what_the_bundle_says(bundle: Bundle, sample_path: Path)
     assert sample.shape == (2, 2, 4, 32, 32)
     assert [part.name for part in sample.meta.parts] == [part.name for part in bundle.parts]
     assert sample.meta.joints == bundle.joints
+    assert sample.meta.rendering["settings"] == plain(SETTINGS)
+    assert sample.meta.rendering["quality"]["composite_paths"] == 2
+    assert sample.meta.rendering["transport"]["thin_glass"]["on"]
     assert not sample.q[0].any()
     assert (sample.meta.seed, sample.meta.index) == (3, 1)
     assert sample.rgba[..., 3].any(axis=(2, 3)).all()
