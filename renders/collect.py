@@ -111,12 +111,12 @@ def _joint_values(plan: RenderPlan) -> np.ndarray[tuple[int, ...], np.dtype[np.f
 
 
 def _meta(bundle: Bundle, plan: RenderPlan, shading: str) -> SampleMeta:
-    versions = {name: str(value) for name, value in bundle.manifest["versions"].items()}
+    versions = {name: str(value) for name, value in bundle.manifest.get("versions", {}).items()}
     return SampleMeta(
         asset_id=bundle.asset_id,
         category=bundle.category,
-        seed=int(bundle.manifest["seed"]),
-        index=int(bundle.manifest["index"]),
+        seed=int(bundle.manifest.get("seed", 0)),  # Only generated bundles are of a seed.
+        index=int(bundle.manifest.get("index", 0)),
         parts=tuple(PartLabel(name=part.name, label=part.label) for part in bundle.parts),
         joints=bundle.joints,
         preconditions=bundle.preconditions,

@@ -4,6 +4,7 @@ import json
 import logging
 import os
 import shutil
+import traceback
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -178,15 +179,22 @@ def _task_in_worker(task: RenderTask) -> Rendered:
             scratch=images,
             backend=backend,
         )
-    except (ArtgenError, OSError, MemoryError) as error:
+    except Exception as error:  # One asset must not end a run of thousands, whatever is wrong.
+        if not isinstance(error, ArtgenError | OSError | MemoryError):
+            log.exception("%s", task.asset_id)
         return Rendered(asset_id=task.asset_id, message=_told(error))
     return Rendered(asset_id=task.asset_id, account=account)
 
 
-def _told(error: BaseException) -> str:
+def _told(error: Exception) -> str:
+    """In one line, but for the log of Blender that a WorkerError quotes."""
     if isinstance(error, OSError) and error.errno in FULL_DISK:
         place = error.filename or "the output folder"
         return f"{place}: no space left; free some, then run the same command"
     if isinstance(error, MemoryError):
         return f"out of memory ({error}); ask for fewer --views or --states, or a smaller --size"
-    return str(error)
+    if isinstance(error, ArtgenError | OSError):
+        return str(error)
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    cause = " ".join(repr(error).split())
+    return f"unexpected {cause} ({Path(place.filename).name}:{place.lineno}); please report it"
