@@ -177,7 +177,7 @@ def _bundle_columns(asset: Listed) -> dict[str, Any]:
         "opening_deg": max(openings, default=None),
         "travel": max(slides, default=None),
         "rule_version": facts.get("rule", {}).get("version"),
-        "artgen": facts["versions"]["artgen"],
+        "artgen": facts.get("versions", {}).get("artgen"),
         "files": len(facts["files"]),
         "bytes": sum(file["bytes"] for file in facts["files"].values()),
     }

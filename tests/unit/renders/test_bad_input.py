@@ -182,21 +182,47 @@ class Crashing:
         return Pictures(images=images, cpu={})
 
 
+def task_of(bundle: Bundle, folder: Path) -> RenderTask:
+    return RenderTask(
+        asset_id=bundle.asset_id,
+        bundle=bundle.folder,
+        sample=folder / "chest" / "1.tar",
+        settings=Settings(views=1, states=1, size=16),
+        seed=0,
+    )
+
+
 def test_a_crashed_or_hung_blender_costs_its_asset_alone(
     bundle: Bundle, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The worker itself kills and tries again (test_worker.py); here its last word is an error."""
     monkeypatch.setattr(run, "_worker", (Crashing(), tmp_path / "scratch"))
-    settings = Settings(views=1, states=1, size=16)
-    task = RenderTask(
-        asset_id=bundle.asset_id, bundle=bundle.folder, sample=tmp_path / "chest" / "1.tar",
-        settings=settings, seed=0,
-    )  # fmt: skip
+    task = task_of(bundle, tmp_path)
     first, again = run._task_in_worker(task), run._task_in_worker(task)
     assert first.message.startswith("Blender job 'render' failed: no report after 900 s")
     assert not again.message
     assert again.account is not None
     assert not list((tmp_path / "scratch").iterdir())
+
+
+class Broken:
+    """A backend with a mistake of ours."""
+
+    shading = "cycles"
+
+    def pictures(self, plan: RenderPlan, folder: Path) -> Pictures:
+        raise KeyError("nobody thought of this")
+
+
+def test_even_a_mistake_of_ours_costs_one_asset(
+    bundle: Bundle, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run, "_worker", (Broken(), tmp_path))
+    told = run._task_in_worker(task_of(bundle, tmp_path)).message
+    assert re.fullmatch(
+        r"unexpected KeyError\('nobody thought of this'\) \(test_bad_input\.py:\d+\); please .*",
+        told,
+    )
 
 
 def test_a_camera_that_is_not_finite_never_reaches_blender(bundle: Bundle, tmp_path: Path) -> None:
