@@ -13,7 +13,9 @@ import psutil
 import tyro
 from rich.console import Console
 
+from artgen.core.errors import UsageError
 from artgen.system_libraries import RASTERIZER_PACKAGES, debian_packages, missing_libraries
+from renders.fast.context import check_rasterizer
 
 PINNED = ("bpy", "numpy", "manifold3d", "trimesh", "xatlas", "mujoco-core", "usd-core")
 DISK_GB = 2.0
@@ -136,29 +138,19 @@ def _blender() -> Finding:
 
 
 def _rasterizer() -> Finding:
-    error = _rasterizer_error()
-    if error is None:
+    if (error := _rasterizer_error()) is None:
         return Finding("fast backend", "software OpenGL opens")
     packages = " ".join(RASTERIZER_PACKAGES)
-    return Finding(
-        "fast backend",
-        error,
-        f"sudo apt-get install -y {packages}   (or, as root, artgen doctor --mend)",
-        needed=False,
-    )
+    remedy = f"sudo apt-get install -y {packages}   (or, as root, artgen doctor --mend)"
+    return Finding("fast backend", error, remedy, needed=False)
 
 
 def _rasterizer_error() -> str | None:
-    """Open a context in a process of its own, as a broken driver may take its process with it."""
-    probe = subprocess.run(
-        [sys.executable, "-c", "from renders.fast.context import open_context as o; o(threads=1)"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    if probe.returncode == 0:
-        return None
-    return (probe.stderr.strip().splitlines() or [f"exit code {probe.returncode}"])[-1]
+    try:
+        check_rasterizer()
+    except UsageError as error:
+        return str(error).split("; ")[-1]
+    return None
 
 
 def _disk(folder: Path) -> Finding:

@@ -8,8 +8,10 @@ from artgen.core.errors import RenderError
 from artgen.core.jsonio import plain
 from artgen.imaging import Singles, read_exr
 from artgen.render_job import Shot
+from artgen.system_libraries import check_libraries
 from artgen.worker import BlenderWorker
 from renders.fast.backend import FastBackend
+from renders.fast.context import check_rasterizer
 from renders.pictures import Pictures
 from renders.plan import RenderPlan
 
@@ -106,3 +108,6 @@ BACKENDS: Mapping[str, Callable[[Path, int], Backend]] = {
     "fast": lambda _, threads: FastBackend(threads=threads),
 }
 """By `Settings.backend`: from a log file and a number of threads to a backend of this process."""
+
+CHECKS: Mapping[str, Callable[[], None]] = {CYCLES: check_libraries, "fast": check_rasterizer}
+"""By `Settings.backend`: raises UsageError where this machine lacks what the backend needs."""

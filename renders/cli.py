@@ -17,8 +17,8 @@ from artgen.core.jsonio import write_json
 from artgen.dataset.listing import BUNDLES
 from artgen.progress import progress
 from artgen.run_folder import RunFolder, locked, opened, run_log
-from artgen.system_libraries import check_libraries
 from renders.accuracy import quality
+from renders.backends import CHECKS
 from renders.contact_sheet import write_contact_sheet
 from renders.report import print_report, render_report, write_report
 from renders.run import Rendered, RenderTask, is_staged, planned_tasks, run_tasks
@@ -75,7 +75,7 @@ def render(argv: Sequence[str]) -> int:
     quality(settings.accuracy)
     if command.workers < 1:
         raise UsageError(f"--workers {command.workers}: expected at least 1")
-    check_libraries()
+    CHECKS[settings.backend]()
     found = found_bundles(command.source)
     root = rendering_folder(command.source, out=command.out, name=command.name)
     with _rendering(root, command) as folder:

@@ -160,6 +160,9 @@ def checked(settings: Settings) -> Settings:
             "motion_blur", settings.motion_blur, "0, or --motion trajectory: drawn states have no "
             "motion between them"
         )  # fmt: skip
+    for option in ("ground", "motion_blur"):
+        if settings.backend == "fast" and (value := getattr(settings, option)):
+            raise _unfit(option, value, "--backend cycles: the fast backend leaves it out")
     return settings
 
 

@@ -1,6 +1,8 @@
 """An OpenGL context without a display, on Mesa's software rasterizer."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,22 @@ from artgen.system_libraries import RASTERIZER_PACKAGES
 
 CONTEXT: dict[str, Any] = {"require": 330, "standalone": True, "backend": "egl"}
 VENDOR = Path("/usr/share/glvnd/egl_vendor.d/50_mesa.json")
+
+
+def check_rasterizer() -> None:
+    """Raise UsageError with the packages to install where no context can be opened.
+
+    It is tried in a process of its own, as a broken driver may take its process with it.
+    """
+    probe = subprocess.run(
+        [sys.executable, "-c", "from renders.fast.context import open_context as o; o(threads=1)"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if probe.returncode != 0:
+        lines = probe.stderr.strip().splitlines() or [f"exit code {probe.returncode}"]
+        raise _missing(lines[-1].split("--mend); ")[-1])
 
 
 def open_context(*, threads: int) -> moderngl.Context:
@@ -29,9 +47,13 @@ def open_context(*, threads: int) -> moderngl.Context:
     try:
         context = moderngl.create_context(**CONTEXT)
     except Exception as error:  # moderngl and its loader raise bare Exception
-        packages = " ".join(RASTERIZER_PACKAGES)
-        raise UsageError(
-            f"the fast backend needs OpenGL through EGL, which this machine lacks ({error}); "
-            f"sudo apt-get install -y {packages}   (or, as root, artgen doctor --mend)"
-        ) from error
+        raise _missing(str(error)) from error
     return context
+
+
+def _missing(cause: str) -> UsageError:
+    packages = " ".join(RASTERIZER_PACKAGES)
+    return UsageError(
+        "the fast backend needs OpenGL through EGL, which this machine lacks; "
+        f"sudo apt-get install -y {packages}   (or, as root, artgen doctor --mend); {cause}"
+    )

@@ -34,3 +34,29 @@ def test_a_full_disk_is_said(monkeypatch) -> None:
     monkeypatch.setattr(doctor.shutil, "disk_usage", lambda place: type("", (), {"free": 1e6})())
     findings = {finding.subject: finding for finding in doctor.examine(Path("not/yet/there"))}
     assert "free some space" in findings["disk"].remedy
+
+
+def test_a_machine_without_software_opengl_is_ready_for_all_but_the_fast_backend(
+    monkeypatch, capsys
+) -> None:
+    def lacks() -> None:
+        raise UsageError("the fast backend needs OpenGL; install it; libEGL.so.1 is missing")
+
+    monkeypatch.setattr(doctor, "check_rasterizer", lacks)
+    assert doctor.doctor([]) == 0
+    shown = capsys.readouterr().out
+    assert "libEGL.so.1 is missing" in shown
+    assert "apt-get install -y libegl1 libgl1-mesa-dri" in shown.replace("\n", " ")
+
+
+def test_mending_installs_the_rasterizer_too(monkeypatch) -> None:
+    asked = []
+
+    def lacks() -> None:
+        raise UsageError("none")
+
+    monkeypatch.setattr(doctor, "check_rasterizer", lacks)
+    monkeypatch.setattr(doctor, "missing_libraries", lambda: ["libXi.so.6"])
+    monkeypatch.setattr(doctor, "install_packages", asked.extend)
+    doctor.doctor(["--mend"])
+    assert asked == ["libxi6", "libegl1", "libgl1-mesa-dri"]
