@@ -33,7 +33,6 @@ LIGHT = """
 #version 330
 #define MOST_LIGHTS 16
 #define TAU 6.28318530718
-#define BOUNCE 0.7
 uniform vec3 eye;
 uniform vec3 sky[9];
 uniform int lights;
@@ -164,14 +163,14 @@ void main() {
         open += from;
         arriving += k < 4 ? from * lights_seen[k] : from;
     }
-    vec3 shown = arriving + BOUNCE * base * sky_seen.x * (open - arriving);
+    vec3 shown = arriving + base * sky_seen.x * (open - arriving);
     vec3 straight = mix(vec3(specular), base, metal);
     vec3 reflected = straight * split.x + min(50.0 * straight.g, 1.0) * split.y;
     vec3 diffuse = base * (1.0 - metal) * (1.0 - reflected.g);
     float smooth_share = 1.0 - rough * rough;
     vec3 sheen = mirror(mix(n, reflect(-to_eye, n), smooth_share), rough);
     float clear = share(sky_seen, reflect(-to_eye, n), 3.0 - rough);
-    sheen = mix(BOUNCE * base * sky_seen.x * open, sheen, clear);
+    sheen = mix(base * sqrt(sky_seen.x) * open, sheen, clear);
     light = vec4(diffuse * shown + reflected * sheen + emitted, 0.0);
 }
 """

@@ -38,7 +38,7 @@ class Backends:
     """Folder of a run of `artgen generate`."""
     sizes: tuple[int, ...] = (128, 256)
     """Widths of the images, px."""
-    views: int = 2
+    views: int = 4
     """Cameras per asset."""
     table: Path = Path("docs/studies/backends.csv")
     """Receives a row per asset, size and kind of image."""
