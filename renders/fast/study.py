@@ -1,10 +1,9 @@
 """`artgen study backends`: the fast backend beside Cycles, in seconds, decibels and pictures."""
 
-import csv
-import io
 import tempfile
+import time
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -20,7 +19,9 @@ from artgen.export import Bundle, read_bundle
 from artgen.export.layout import MANIFEST
 from artgen.imaging import Bytes, Singles, display, png_file
 from artgen.run_folder import RunFolder
+from artgen.studies.table import write_table
 from renders.backends import BACKENDS, Backend
+from renders.collect import cast
 from renders.contact_sheet import on_paper
 from renders.plan import RenderPlan, plan_render
 from renders.settings import Settings
@@ -43,7 +44,7 @@ class Backends:
     table: Path = Path("docs/studies/backends.csv")
     """Receives a row per asset, size and kind of image."""
     picture: Path = Path("docs/images/fast_backend.png")
-    """Receives the images of the largest size, Cycles above fast."""
+    """Receives images of the largest size, Cycles left of fast, an asset a row."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +52,9 @@ class Row:
     """All composites, or all parts alone, of one asset at one size.
 
     Attributes:
-        cycles_cpu_s, fast_cpu_s: a whole sample's images, composites and parts; warm.
+        parts, images: of the whole sample.
+        cycles_cpu_s, fast_cpu_s: all of these images, composites and parts; warm.
+        labels_cpu_s: all labels of the sample.
         psnr_db: of sRGB where Cycles' alpha is above one half, over all images of the kind.
         bias, error: mean and mean absolute difference there, fast minus Cycles, in 8-bit codes.
     """
@@ -59,9 +62,11 @@ class Row:
     asset_id: str
     size: int
     kind: str
+    parts: int
     images: int
     cycles_cpu_s: float
     fast_cpu_s: float
+    labels_cpu_s: float
     ratio: float
     psnr_db: float
     bias: float
@@ -82,8 +87,12 @@ def backends(argv: Sequence[str]) -> int:
                 plan = planned(bundle, folder, size=size, views=command.views)
                 cycles, fast = (measured(backend, plan, folder) for backend in pair)
                 pictures[bundle.asset_id] = side_by_side(plan, cycles.images, fast.images)
-                rows += compared(plan, cycles, fast) if size != WARM_PX else []
-    write_bytes(command.table, _csv(rows))
+                started = time.process_time()
+                cast(plan)
+                labels = time.process_time() - started
+                if size != WARM_PX:
+                    rows += compared(plan, cycles, fast, labels_cpu_s=labels)
+    write_table(command.table, rows)
     write_bytes(command.picture, png_file(np.concatenate(list(pictures.values()))))
     for row in rows:
         where = f"{row.asset_id} {row.size} px {row.kind}"
@@ -113,7 +122,9 @@ def measured(backend: Backend, plan: RenderPlan, folder: Path) -> Measured:
     return Measured(images=images, cpu_s=_cpu_seconds() - before)
 
 
-def compared(plan: RenderPlan, cycles: Measured, fast: Measured) -> list[Row]:
+def compared(
+    plan: RenderPlan, cycles: Measured, fast: Measured, *, labels_cpu_s: float
+) -> list[Row]:
     """One row for the composites, one for the parts alone."""
     rows = []
     for kind, alone in (("composite", False), ("part", True)):
@@ -125,13 +136,15 @@ def compared(plan: RenderPlan, cycles: Measured, fast: Measured) -> list[Row]:
                 asset_id=plan.bundle.asset_id,
                 size=plan.settings.size,
                 kind=kind,
+                parts=len(plan.meshes),
                 images=len(plan.passes.shots),
-                cycles_cpu_s=round(cycles.cpu_s, 3),
-                fast_cpu_s=round(fast.cpu_s, 3),
-                ratio=round(cycles.cpu_s / fast.cpu_s, 1),
-                psnr_db=round(float(-10.0 * np.log10(np.mean((gap / 255.0) ** 2))), 2),
-                bias=round(float(gap.mean()), 2),
-                error=round(float(np.abs(gap).mean()), 2),
+                cycles_cpu_s=cycles.cpu_s,
+                fast_cpu_s=fast.cpu_s,
+                labels_cpu_s=labels_cpu_s,
+                ratio=cycles.cpu_s / fast.cpu_s,
+                psnr_db=float(-10.0 * np.log10(max(np.mean((gap / 255.0) ** 2), 1e-12))),
+                bias=float(gap.mean()),
+                error=float(np.abs(gap).mean()),
             )
         )
     return rows
@@ -144,28 +157,18 @@ def difference(one: Singles, two: Singles) -> Floats:
     return np.asarray(b - a)
 
 
-def side_by_side(plan: RenderPlan, above: Sequence[Singles], below: Sequence[Singles]) -> Bytes:
-    """(2 H, T V W, 3) composites on paper."""
-    order = [row[v] for v in range(len(plan.cameras)) for row in plan.passes.composite]
-    strips = [
-        np.concatenate([on_paper(display(images[k])) for k in order], axis=1)
-        for images in (above, below)
-    ]
-    return np.concatenate(strips)
+def side_by_side(plan: RenderPlan, left: Sequence[Singles], right: Sequence[Singles]) -> Bytes:
+    """(H, 4 W, 3) on paper: the first view at rest by both backends, then the last state of the
+    second view by both."""
+    chosen = (plan.passes.composite[0][0], plan.passes.composite[-1][1 % len(plan.cameras)])
+    pictures = [on_paper(display(images[k])) for k in chosen for images in (left, right)]
+    return np.concatenate(pictures, axis=1)
 
 
 def _cpu_seconds() -> float:
     """User and system time of this process and its living children."""
     me = psutil.Process()
     return float(sum(sum(p.cpu_times()[:2]) for p in (me, *me.children(recursive=True))))
-
-
-def _csv(rows: Sequence[Row]) -> bytes:
-    text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=[f.name for f in fields(Row)], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(asdict(row) for row in rows)
-    return text.getvalue().encode()
 
 
 def _first_of_each(assets: Path) -> list[Path]:
