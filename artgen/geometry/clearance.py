@@ -39,7 +39,7 @@ class Shape:
         """(K, B, 2, 3) bounds of each body under each of (K, 4, 4) poses."""
         shift = object_from_rest[:, None, None, :3, 3]
         turns = object_from_rest[:, :3, :3]
-        if (turns == np.eye(3)).all():
+        if not len(self.bodies) or (turns == np.eye(3)).all():
             return np.asarray(self.rest + shift)
         turned = turns @ self.points.T
         lower = np.minimum.reduceat(turned, self.starts, axis=2)
@@ -62,6 +62,13 @@ def shape_of_solids(solids: Iterable[Solid]) -> Shape:
     listed = list(solids)
     points = [solid.trimesh().vertices for solid in listed]
     return _shape([solid.manifold for solid in listed], points)
+
+
+def shape_of_nothing() -> Shape:
+    """No body: what a part without a mesh puts in others' way."""
+    return Shape(
+        bodies=(), points=np.zeros((0, 3)), starts=np.zeros(0, np.intp), rest=np.zeros((0, 2, 3))
+    )
 
 
 def shape_of_mesh(mesh: TriMesh) -> Shape:

@@ -76,5 +76,7 @@ def _add_joint(body: mujoco.MjsBody, assembly: Assembly, name: str) -> None:
         pos=apply(own, joint.origin),
     )
     added.damping[0], added.frictionloss = joint.damping, joint.friction
+    if joint.spring is not None:
+        added.stiffness[0], added.springref = joint.spring.stiffness, joint.spring.reference
     if joint.limit is not None:
         added.range = (joint.limit.lower, joint.limit.upper)

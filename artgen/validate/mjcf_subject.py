@@ -88,6 +88,9 @@ class MjcfSubject(ForeignSubject):
         """Every element that names a file, with that file; ExportError where it leads outside."""
         compilers = {k: v for c in document.iter("compiler") for k, v in c.attrib.items()}
         stripped = compilers.get("strippath") == "true"
+        for element in document.iter():
+            if FILE_KEYS & set(element.attrib) and element.tag not in FOLDERS:
+                raise ExportError(f"<{element.tag}> names a file; that is not read here")
         for tag, key in FOLDERS.items():
             folder = compilers.get(key, compilers.get("assetdir", ""))
             for element in document.iter(tag):

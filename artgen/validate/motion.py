@@ -9,8 +9,9 @@ from artgen.articulation.kinematics import forward_kinematics, resolved
 from artgen.articulation.types import Joint, State
 from artgen.core.mesh import Floats
 from artgen.core.stream import Stream
+from artgen.geometry.clearance import shape_of_nothing
 from artgen.validate.physics import body_names, set_state
-from artgen.validate.report import Finding, Note
+from artgen.validate.report import Finding, Note, Skipped
 from artgen.validate.subject import Subject
 from artgen.validate.sweep import Crossing, crossings, sweeps
 
@@ -123,11 +124,15 @@ def passages(subject: Subject) -> Iterator[Note]:
             yield Note(name="motion.passage", text=text + "meet otherwise")
 
 
-def exact_overlaps(subject: Subject) -> Iterator[Finding]:
+def exact_overlaps(subject: Subject) -> Iterator[Finding | Skipped]:
     """Visual meshes of different parts share no volume, at rest and along each joint's range."""
     bound, base = subject.bounds.overlap, subject.parts[0].name
+    unseen = [part.name for part in subject.parts if part.name not in subject.shapes]
+    for name in unseen:
+        yield Skipped(name="motion.overlap", reason=f"{name} has no visual shape")
+    shapes = {**subject.shapes, **{name: shape_of_nothing() for name in unseen}}
     worst: dict[tuple[str, str], Crossing] = {}
-    for crossing in crossings(base, subject.joints, subject.passages, subject.shapes):
+    for crossing in crossings(base, subject.joints, subject.passages, shapes):
         one, other = sorted((crossing.overlap.first, crossing.overlap.second))
         pair = one, other
         if pair not in worst or crossing.overlap.volume > worst[pair].overlap.volume:

@@ -17,7 +17,7 @@ from artgen.core.errors import ArtgenError, GeometryError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.transform import rigid
 from artgen.geometry.solid import Solid, box, cylinder
-from artgen.validate.assembly import Assembly, FileJoint, Geometry, LinkMass, assembled
+from artgen.validate.assembly import Assembly, FileJoint, Geometry, LinkMass, assembled, moved
 from artgen.validate.foreign_subject import ForeignSubject
 from artgen.validate.meshfile import read_mesh
 from artgen.validate.physics import quiet
@@ -122,12 +122,17 @@ class UrdfSubject(ForeignSubject):
                 yield Geometry(
                     link=name,
                     label=f"{name}, {kind} {index}",
-                    link_from_shape=pose_of(element),
+                    link_from_shape=np.eye(4),
                     read=partial(self._mesh, element),
                 )
 
     def _mesh(self, element: ET.Element) -> TriMesh:
-        """Triangles of a `<geometry>`; GeometryError where its kind or numbers are unknown."""
+        """Triangles of a `<visual>` or `<collision>` in the link's frame; GeometryError where its
+        kind or numbers are unknown."""
+        return moved(self._shape(element), pose_of(element))
+
+    def _shape(self, element: ET.Element) -> TriMesh:
+        """Triangles of a `<geometry>` in its own frame."""
         mesh = element.find("geometry/mesh")
         if mesh is None:
             return solid_mesh(element.find("geometry/*"))

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics
 
+from artgen.articulation.types import Spring
 from artgen.core.errors import ArtgenError, ExportError, GeometryError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.transform import apply, inverted, rigid
@@ -167,26 +168,20 @@ class UsdSubject(ForeignSubject):
             np.array(joint.GetLocalPos1Attr().Get() or (0.0, 0.0, 0.0), float) * scale * self.unit
         )
         above, _ = self._pose(self.bodies[parent])
-        drive = self._drive(prim)
+        drive = _drive(prim)
         stated = StatedJoint(
             file=self.source.file.name, name=prim.GetName(), type=kind, parent=parent, child=child,
             axis=tuple((turn @ axis).tolist()), origin=tuple(place.tolist()),
             lower=float(lower) * unit, upper=float(upper) * unit,
-            friction=None, damping=drive, effort=None, velocity=None,
+            friction=_first(prim, FRICTION), damping=drive.damping,
+            effort=drive.effort or _first(prim, EFFORT), velocity=_first(prim, VELOCITY),
         )  # fmt: skip
         return FileJoint(
             stated=stated,
             parent_from_joint=inverted(above) @ pose,
             anchor=apply(pose, place),
+            spring=drive.spring,
         )
-
-    def _drive(self, prim: Usd.Prim) -> float | None:
-        """Damping of a joint's drive, N m s/rad or N s/m."""
-        for name, unit in (("angular", 180.0 / np.pi), ("linear", 1.0)):
-            if prim.HasAPI(UsdPhysics.DriveAPI, name):
-                damping = UsdPhysics.DriveAPI(prim, name).GetDampingAttr().Get()
-                return None if damping is None else float(damping) * unit
-        return None
 
     @property
     def stated_joints(self) -> list[StatedJoint]:
@@ -273,6 +268,44 @@ class UsdSubject(ForeignSubject):
     def spec(self, file: str) -> mujoco.MjSpec:
         """A model of our own making from what the stage states."""
         return built_spec(self.name, self.assembly, self.contact_meshes)
+
+
+FRICTION = ("mjc:frictionloss", "newton:friction", "physxJoint:jointFriction")
+EFFORT = ("artgen:effort",)
+VELOCITY = ("artgen:velocity",)
+"""Attributes that various writers use for what UsdPhysics has no word for."""
+
+
+def _first(prim: Usd.Prim, names: Sequence[str]) -> float | None:
+    """The first of some attributes that holds a number."""
+    values = (prim.GetAttribute(name).Get() for name in names if prim.HasAttribute(name))
+    return next((float(v) for v in values if isinstance(v, int | float)), None)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drive:
+    """What a joint's drive does, per radian or meter; None where it does not say."""
+
+    damping: float | None = None
+    spring: Spring | None = None
+    effort: float | None = None
+
+
+def _drive(prim: Usd.Prim) -> Drive:
+    """The drive of a joint; UsdPhysics counts angles in degrees here too."""
+    for name, unit in (("angular", 180.0 / np.pi), ("linear", 1.0)):
+        if not prim.HasAPI(UsdPhysics.DriveAPI, name):
+            continue
+        drive = UsdPhysics.DriveAPI(prim, name)
+        damping, stiffness = drive.GetDampingAttr().Get(), drive.GetStiffnessAttr().Get()
+        target, force = drive.GetTargetPositionAttr().Get(), drive.GetMaxForceAttr().Get()
+        spring = Spring(stiffness=(stiffness or 0.0) * unit, reference=(target or 0.0) / unit)
+        return Drive(
+            damping=None if damping is None else float(damping) * unit,
+            spring=spring if spring.stiffness > 0.0 else None,
+            effort=float(force) if force is not None and np.isfinite(force) else None,
+        )
+    return Drive()
 
 
 def turn_of(quaternion: Gf.Quatf | None) -> Floats:
