@@ -1,8 +1,9 @@
 """Bundle and stream to RenderPlan: states, cameras, lights, passes; all chance is spent here."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from artgen.export import Bundle
 from artgen.export.layout import GLB
 from artgen.render_job import LightRig, RenderJob
 from artgen.transport import needed_transport
-from renders.accuracy import quality
+from renders.accuracy import Quality, quality
 from renders.cameras import placed_cameras, stated_cameras
 from renders.lights import studio_rig
 from renders.passes import Passes, planned_passes
@@ -60,11 +61,8 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
     names = [part.name for part in bundle.parts]
     meshes = loaded_meshes(bundle)
     states, moments = planned_states(bundle, stream.child("states"), settings)
-    poses = tuple(forward_kinematics(names[0], bundle.joints, state) for state in states)
-    exposures = tuple(
-        tuple(forward_kinematics(names[0], bundle.joints, state) for state in open_shutter)
-        for open_shutter in moments
-    )
+    poses = _posed(bundle, states)
+    exposures = tuple(_posed(bundle, shutter) for shutter in moments)
     shown = exposures or tuple((pose,) for pose in poses)
     hulls = [hull_corners(mesh.vertices) for mesh in meshes]
     corners = moved_corners(names, hulls, [pose for seen in shown for pose in seen])
@@ -77,6 +75,13 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         size=(settings.size, settings.size),
         radius=bundle.radius,
         ground=settings.ground,
+    )
+    stated = stated_cameras(
+        cameras,
+        stream.child("pose noise"),
+        settings=settings.cameras,
+        states=len(states),
+        radius=bundle.radius,
     )
     paths = quality(settings.accuracy)
     passes = planned_passes(
@@ -92,12 +97,8 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         transport=needed_transport(bundle.surfaces, rig, motion_blur=bool(exposures)),
         shots=passes.shots,
         seed=int(stream.child("cycles").generator().integers(2**31)),
-        denoise=paths.denoise,
-        prefilter=paths.prefilter,
-        denoise_quality=paths.denoise_quality,
-        adaptive=paths.adaptive,
-        bounces=paths.bounces,
         exposures=exposures,
+        **_tracing(paths),
     )
     return RenderPlan(
         bundle=bundle,
@@ -106,16 +107,22 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         states=states,
         poses=poses,
         cameras=cameras,
-        stated=stated_cameras(
-            cameras,
-            stream.child("pose noise"),
-            settings=settings.cameras,
-            states=len(states),
-            radius=bundle.radius,
-        ),
+        stated=stated,
         passes=passes,
         job=job,
     )
+
+
+def _posed(bundle: Bundle, states: Sequence[State]) -> tuple[dict[str, Floats], ...]:
+    """Part name to `object_from_rest`, for each state."""
+    base = bundle.parts[0].name
+    return tuple(forward_kinematics(base, bundle.joints, state) for state in states)
+
+
+def _tracing(paths: Quality) -> dict[str, Any]:
+    """The fields of a quality that are a job's too; samples are its shots'."""
+    shared = {field.name for field in fields(RenderJob)} & {field.name for field in fields(paths)}
+    return {name: getattr(paths, name) for name in shared}
 
 
 def planned_states(
