@@ -21,7 +21,7 @@ from blender_scripts.posing import Posing
 
 
 def run(job: Mapping[str, Any], threads: int) -> dict[str, Any]:
-    """Render all shots; the report holds wall and CPU seconds of each stage.
+    """Render all shots; the report holds wall and CPU seconds of each stage and each shot.
 
     Raises:
         RenderError: the GLB is unreadable, lacks a part that the job poses, or lacks an image; or
@@ -36,6 +36,7 @@ def run(job: Mapping[str, Any], threads: int) -> dict[str, Any]:
     cameras = [add_camera(f"camera_{k}", camera) for k, camera in enumerate(task.cameras)]
     _configure(scene, task, threads)
     clock.stop("import")
+    shots = []
     for shot in task.shots:
         posing.show(shot)
         if ground is not None:
@@ -43,8 +44,13 @@ def run(job: Mapping[str, Any], threads: int) -> dict[str, Any]:
         scene.camera = cameras[shot.camera]
         set_window(scene, task.cameras[shot.camera].size, shot.box)
         _render(scene, shot, Path(task.folder))
-        clock.stop("composite" if shot.part is None else "alone")
-    return {"files": [shot.file for shot in task.shots], "stages": clock.wall, "cpu": clock.cpu}
+        shots.append(clock.stop("composite" if shot.part is None else "alone"))
+    return {
+        "files": [shot.file for shot in task.shots],
+        "stages": clock.wall,
+        "cpu": clock.cpu,
+        "shots": [{"wall_s": wall, "cpu_s": cpu} for wall, cpu in shots],
+    }
 
 
 def import_parts(task: RenderJob) -> dict[str, bpy.types.Object]:
@@ -144,8 +150,11 @@ class _Clock:
         self.cpu: dict[str, float] = {}
         self._last = (time.perf_counter(), time.process_time())
 
-    def stop(self, stage: str) -> None:
+    def stop(self, stage: str) -> tuple[float, float]:
+        """Book the wall and CPU seconds since the last stop on `stage`, and return them."""
         now = (time.perf_counter(), time.process_time())
-        for seconds, start, end in zip((self.wall, self.cpu), self._last, now, strict=True):
-            seconds[stage] = seconds.get(stage, 0.0) + end - start
+        wall, cpu = (end - start for start, end in zip(self._last, now, strict=True))
+        self.wall[stage] = self.wall.get(stage, 0.0) + wall
+        self.cpu[stage] = self.cpu.get(stage, 0.0) + cpu
         self._last = now
+        return wall, cpu

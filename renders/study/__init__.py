@@ -1,0 +1,1 @@
+"""`artgen study render`: what accuracy of images costs in time."""
