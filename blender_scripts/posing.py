@@ -9,7 +9,7 @@ from mathutils import Matrix
 from artgen.core.errors import RenderError
 from artgen.render_job import RenderJob, Shot
 
-STEPS = 3
+STEPS = 2
 """Cycles takes 2^STEPS + 1 poses while the shutter is open and runs straight between them."""
 
 

@@ -8,6 +8,7 @@ Blender talks on stdout as it likes, so file descriptor 1 is turned to stderr an
 private copy of the real one.
 """
 
+from blender_scripts.cores import widen  # isort: skip  (before bpy counts the cores)
 import bpy  # isort: skip  (first: libraries that load another Embree before it break it)
 
 import ctypes
@@ -39,6 +40,7 @@ PR_SET_PDEATHSIG = 1
 def main(argv: list[str]) -> int:
     """Serve or run one job; 0, or 1 when the one job failed."""
     logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
+    widen()
     arguments = argv[argv.index("--") + 1 :] if "--" in argv else argv[1:]
     reports = private_stdout()
     if arguments[0] == "--serve":
