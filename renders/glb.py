@@ -3,7 +3,7 @@
 import io
 import json
 import struct
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from PIL import Image
 from artgen.core.conventions import Y_UP_FROM_Z_UP
 from artgen.core.errors import RenderError
 from artgen.core.mesh import Floats
+from artgen.core.surface import SurfaceSpec
 
 Bytes = NDArray[np.uint8]
 TURN = Y_UP_FROM_Z_UP[:3, :3]
@@ -87,6 +88,23 @@ def read_appearance(path: Path) -> Appearance:
         return _Reader(path.read_bytes()).appearance()
     except (OSError, KeyError, IndexError, TypeError, ValueError, struct.error) as error:
         raise RenderError(f"{path} cannot be read ({error!r}); generate the asset anew") from error
+
+
+def surfaces_by_name(
+    surfaces: Sequence[SurfaceSpec], appearance: Appearance
+) -> dict[str, SurfaceSpec]:
+    """The surfaces of a manifest for a GLB that uses no other.
+
+    Raises:
+        RenderError: the GLB uses one that the manifest does not state.
+    """
+    known = {surface.name: surface for surface in surfaces}
+    if strange := {skin.surface for skin in appearance.skins} - set(known):
+        raise RenderError(
+            f"the GLB uses surfaces {', '.join(sorted(strange))}, the manifest states "
+            f"{', '.join(known)}; generate the asset anew"
+        )
+    return known
 
 
 class _Reader:

@@ -10,7 +10,7 @@ from artgen.core.errors import RenderError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
 from artgen.imaging import srgb_from_linear
-from renders.glb import Appearance, Skin
+from renders.glb import Appearance, Skin, surfaces_by_name
 from renders.raycast import Hits, barycentric
 
 Bytes = NDArray[np.uint8]
@@ -106,7 +106,7 @@ def paints(
     surfaces: Sequence[SurfaceSpec],
 ) -> list[Paint]:
     """The paint of every part."""
-    by_name = {surface.name: surface for surface in surfaces}
+    by_name = surfaces_by_name(surfaces, appearance)
     return [
         Paint(name, mesh, appearance, by_name) for name, mesh in zip(names, meshes, strict=True)
     ]

@@ -12,9 +12,9 @@ from artgen.render_job import LightRig, Shot
 from renders.fast.context import open_context
 from renders.fast.filtered import Blur
 from renders.fast.light import shine
-from renders.fast.rasterizer import Canvases, Programs, Rasterizer, is_pane
+from renders.fast.rasterizer import Canvas, Programs, Rasterizer, is_pane
 from renders.fast.scenes import occlusions, scene_of
-from renders.glb import Appearance, read_appearance
+from renders.glb import Appearance, read_appearance, surfaces_by_name
 from renders.pictures import Pictures
 from renders.plan import RenderPlan
 
@@ -30,7 +30,7 @@ class FastBackend:
     def __init__(self, *, threads: int = 1) -> None:
         self._context = open_context(threads=threads)
         self._programs = Programs(self._context)
-        self._canvases = Canvases(self._context)
+        self._canvas = Canvas(self._context)
         self._blur = Blur()
 
     def pictures(self, plan: RenderPlan, folder: Path) -> Pictures:
@@ -41,9 +41,10 @@ class FastBackend:
                 lights.
         """
         started = time.process_time()
+        appearance = read_appearance(Path(plan.job.glb))
         images = self.draw(
-            read_appearance(Path(plan.job.glb)),
-            {surface.name: surface for surface in plan.bundle.surfaces},
+            appearance,
+            surfaces_by_name(plan.bundle.surfaces, appearance),
             plan.job.rig,
             cameras=plan.cameras,
             poses=plan.poses,
@@ -73,7 +74,7 @@ class FastBackend:
         rasterizer = Rasterizer(
             self._context,
             self._programs,
-            self._canvases,
+            self._canvas,
             appearance=appearance,
             surfaces=surfaces,
             light=light,

@@ -7,6 +7,7 @@ import moderngl
 import numpy as np
 
 from artgen.core.camera import Camera
+from artgen.core.errors import RenderError
 from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
 from artgen.core.transform import apply
@@ -29,8 +30,6 @@ Owned = (
 FINER = 2
 """Images are drawn so many times finer along each side. In software this costs half of what
 multisampling by four does, and smooths highlights and textures too."""
-TILE = 32
-"""px; images are drawn on canvases of whole tiles, so that few canvases serve all windows."""
 MIRRORED, SPLIT_SUM, SEEN_SKY, SEEN_LIGHTS = 0, 5, 6, 7
 """Texture units; those between hold a surface's images."""
 UNITS = {
@@ -71,22 +70,30 @@ class Shade:
     grid: tuple[float, ...]
 
 
-class Canvases:
-    """Canvases by size."""
+class Canvas:
+    """Where images are drawn; windows use its lower corner, which costs no more than a small one
+    would."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
-        self._made: dict[tuple[int, int], moderngl.Framebuffer] = {}
+        self._frame: moderngl.Framebuffer | None = None
 
-    def of(self, size: tuple[int, int]) -> moderngl.Framebuffer:
-        """One that holds (width, height) px, FINER times as fine."""
-        wide, high = (FINER * TILE * -(-side // TILE) for side in size)
-        if (wide, high) not in self._made:
-            gl = self._context
-            self._made[wide, high] = gl.framebuffer(
-                gl.renderbuffer((wide, high), 4, dtype="f4"), gl.depth_renderbuffer((wide, high))
+    def cleared(self, size: tuple[int, int]) -> moderngl.Framebuffer:
+        """One that is at least (width, height), current, and empty there."""
+        frame, gl = self._frame, self._context
+        if frame is None or frame.width < size[0] or frame.height < size[1]:
+            wide, high = (
+                max(pair) for pair in zip(size, frame.size if frame else size, strict=True)
             )
-        return self._made[wide, high]
+            if frame is not None:
+                for attachment in (*frame.color_attachments, frame.depth_attachment, frame):
+                    attachment.release()
+            color = gl.renderbuffer((wide, high), 4, dtype="f4")
+            frame = self._frame = gl.framebuffer(color, gl.depth_renderbuffer((wide, high)))
+        frame.use()
+        gl.viewport = (0, 0, *size)
+        frame.clear(0.0, 0.0, 0.0, 1.0, depth=1.0, viewport=(0, 0, *size))
+        return frame
 
 
 class Programs:
@@ -126,13 +133,13 @@ class Rasterizer:
         self,
         context: moderngl.Context,
         programs: Programs,
-        canvases: Canvases,
+        canvas: Canvas,
         *,
         appearance: Appearance,
         surfaces: Mapping[str, SurfaceSpec],
         light: Shine,
     ) -> None:
-        self._context, self._canvases, self._programs = context, canvases, programs
+        self._context, self._canvas, self._programs = context, canvas, programs
         self._owned: list[Owned] = []
         self._textures: dict[tuple[str, str], moderngl.Texture] = {}
         self._pieces = [
@@ -172,14 +179,18 @@ class Rasterizer:
 
         Args:
             part: the only part in the scene, or None for all.
-            shade: of this scene; None where nothing is opaque."""
+            shade: of this scene; None where nothing is opaque.
+
+        Raises:
+            RenderError: there is no such part.
+        """
         size = (box[2] - box[0], box[3] - box[1])
-        drawn, fine = self._canvases.of(size), (FINER * size[0], FINER * size[1])
+        fine = (FINER * size[0], FINER * size[1])
         shown = [piece for piece in self._pieces if part in (None, piece.skin.part)]
+        if not shown:
+            raise RenderError(f"the GLB shows no part {part}; generate the asset anew")
         gl = self._context
-        drawn.use()
-        gl.viewport = (0, 0, *fine)
-        drawn.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
+        drawn = self._canvas.cleared(fine)
         gl.front_face = "cw"  # rows run downward, so triangles turn the other way
         gl.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         self._mirrored.use(MIRRORED)

@@ -68,7 +68,9 @@ def drawn(
         {surface.name: surface for surface in surfaces},
         rig,
         cameras=(view,),
-        poses=({one.part: np.eye(4) for one in skins},),
+        poses=(
+            dict.fromkeys([*(s.part for s in skins), *(s.part or "" for s in shots)], np.eye(4)),
+        ),
         shots=shots,
     )
 

@@ -1,14 +1,17 @@
 """The shading model agrees with closed forms where there are some."""
 
 import math
+from pathlib import Path
 
 import numpy as np
+import OpenImageIO as oiio
 import pytest
 
+from artgen.core.errors import RenderError
 from artgen.core.surface import SurfaceSpec
 from artgen.geometry.solid import box, cylinder
 from artgen.imaging import Singles
-from artgen.render_job import LightRig, Sky
+from artgen.render_job import Environment, LightRig, Sky
 from renders.fast.backend import FastBackend
 from renders.fast.filtered import (
     HEIGHT,
@@ -19,6 +22,7 @@ from renders.fast.filtered import (
     split_sum,
     white_wall,
 )
+from renders.glb import Appearance, Look, Skin, surfaces_by_name
 from tests.unit.renders.fast.made import DARK, EVEN, SIZE, camera, drawn, lamp, matte, shot, skin
 
 MIDDLE = (slice(SIZE // 2 - 2, SIZE // 2 + 2),) * 2
@@ -179,3 +183,81 @@ def test_more_sky_is_brighter(backend: FastBackend) -> None:
         for s in (half, EVEN)
     )
     assert np.allclose(2.0 * dim[0][..., :3], bright[0][..., :3], atol=1e-4)
+
+
+def test_a_part_that_the_glb_lacks_is_told(backend: FastBackend) -> None:
+    block = skin(box((0.5, 0.3, 0.4)), "block", "gray")
+    with pytest.raises(RenderError, match="shows no part lid"):
+        drawn(
+            backend,
+            [block],
+            [matte("gray", 0.5)],
+            camera(block.vertices),
+            shots=(shot(part="lid"),),
+        )
+
+
+def test_a_surface_that_the_manifest_lacks_is_told() -> None:
+    block = skin(box((0.5, 0.3, 0.4)), "block", "gray")
+    appearance = Appearance(skins=(block,), looks={"gray": Look()})
+    assert set(surfaces_by_name([matte("gray", 0.5)], appearance)) == {"gray"}
+    with pytest.raises(RenderError, match="uses surfaces gray, the manifest states white"):
+        surfaces_by_name([matte("white", 0.5)], appearance)
+
+
+def test_a_part_of_no_size_is_drawn_as_nothing(backend: FastBackend) -> None:
+    """Its grid, its clip planes and its points still are numbers."""
+    block = skin(box((0.5, 0.3, 0.4)), "block", "gray")
+    speck = Skin(
+        part="speck",
+        surface="gray",
+        vertices=np.zeros((3, 3)),
+        normals=np.tile([0.0, 0.0, 1.0], (3, 1)),
+        uv=np.zeros((3, 2)),
+        faces=np.array([[0, 1, 2]], np.int32),
+    )
+    shots = (shot(), shot(part="speck"), shot(part="block"))
+    both, alone, without = drawn(
+        backend, [block, speck], [matte("gray", 0.5)], camera(block.vertices), shots=shots
+    )
+    assert not alone.any()
+    assert np.array_equal(both[..., 3], without[..., 3])
+
+
+def test_an_environment_lights_from_where_its_file_says(
+    backend: FastBackend, tmp_path: Path
+) -> None:
+    """Radiance 1 from the half of the sphere on the +x side, in an image whose columns run from
+    the back by -x, the front and +x to the back: a wall to that side shows its albedo, one away
+    shows nothing, and one to the front half of it. Degree 2 of the expansion misses 3 % at most."""
+    image = np.zeros((32, 64, 3), np.float32)
+    image[:, 32:] = 1.0
+    path = tmp_path / "half.exr"
+    out = oiio.ImageOutput.create(str(path))
+    out.open(str(path), oiio.ImageSpec(64, 32, 3, "float"))
+    out.write_image(image)
+    out.close()
+    rig = LightRig(name="half", lights=(), sky=DARK, environment=Environment(file=str(path)))
+    wall = skin(box((0.5, 0.5, 0.5), at=(0.0, 0.0, -0.25)), "wall", "white")
+    shown = [
+        drawn(backend, [wall], [matte("white", 0.5)], camera(wall.vertices, azimuth=turn), rig=rig)[
+            0
+        ][MIDDLE][..., 0].mean()
+        for turn in (90, 0, -90)
+    ]
+    assert shown == pytest.approx([0.5, 0.25, 0.0], abs=0.03)
+
+
+def test_an_environment_that_is_missing_is_told(backend: FastBackend, tmp_path: Path) -> None:
+    wall = skin(box((0.5, 0.5, 0.5)), "wall", "white")
+    lost = Environment(file=str(tmp_path / "lost.exr"))
+    rig = LightRig(name="lost", lights=(), sky=DARK, environment=lost)
+    with pytest.raises(RenderError, match=r"lost\.exr is no equirectangular RGB image"):
+        drawn(backend, [wall], [matte("white", 0.5)], camera(wall.vertices), rig=rig)
+
+
+def test_more_lights_than_the_shaders_hold_are_told(backend: FastBackend) -> None:
+    wall = skin(box((0.5, 0.5, 0.5)), "wall", "white")
+    rig = LightRig(name="many", lights=(lamp((0, -2, 0), (0, 0, 0), 1.0),) * 17, sky=DARK)
+    with pytest.raises(RenderError, match="has 17 lights, the fast backend holds 16"):
+        drawn(backend, [wall], [matte("white", 0.5)], camera(wall.vertices), rig=rig)
