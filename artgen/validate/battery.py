@@ -10,6 +10,7 @@ from artgen.validate import (
     mesh,
     models,
     motion,
+    second_opinion,
     semantics,
     structure,
 )
@@ -115,7 +116,10 @@ LEVELS: tuple[Level[Subject], ...] = (
     Level(
         name="L4 kinematics",
         needs=("L3 model",),
-        checks=(Check(motion.kinematics, ("motion.kinematics",)),),
+        checks=(
+            Check(motion.kinematics, ("motion.kinematics",)),
+            Check(second_opinion.pinocchio, ("motion.pinocchio",), (second_opinion.NEED,)),
+        ),
     ),
     Level(
         name="L4 clearance",

@@ -20,6 +20,7 @@ from artgen.export.layout import MANIFEST, MJCF, REPORT, URDF
 from artgen.export.manifest import SCHEMA
 from artgen.validate.objfile import read_triangles
 from artgen.validate.physics import compiled_spec, read_spec
+from artgen.validate.second_opinion import NEED, absent
 from artgen.validate.shape import misshapen
 from artgen.validate.stated import (
     StatedBody,
@@ -51,8 +52,8 @@ class BundleSubject(Subject):
             return self.folder.name
 
     def lacks(self, need: str) -> str | None:
-        """A bundle says everything."""
-        return None
+        """A bundle says everything, but a tool may be missing."""
+        return absent() if need == NEED else None
 
     def files(self) -> Iterable[Path]:
         """Every file of the folder but the report of an earlier validation."""

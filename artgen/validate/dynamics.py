@@ -26,11 +26,11 @@ def settles(subject: Subject) -> Iterator[Finding]:
     model = subject.simulated
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    allowed = drift_bound(model, data, subject.bounds)
     # Contact is most of a step's time; where nothing touches at rest, it cannot act there.
     off = CONTACT if data.ncon == 0 else 0
     with simulating(model, off=off):
         model.opt.timestep = coarse_step(model)
+        allowed = drift_bound(model, data, subject.bounds)
         mujoco.mj_step(model, data, nstep=round(SETTLE_SECONDS / model.opt.timestep))
     for name in warnings_of(data):
         yield _settle_finding("simulation", name, "no warning", "the simulation is unstable")
@@ -61,14 +61,15 @@ def drift_bound(model: mujoco.MjModel, data: mujoco.MjData, bounds: Bounds) -> F
     MuJoCo's constraints are soft: with impedance d and the acceleration a that the joint would have
     if free, it ends where the reference acceleration is (1 - d) / d a. So a stop (solref t, z) sags
     by (1 - d) / d a (dmax t z)^2 / d, and friction creeps at (1 - d) / d a dmax t / 2
-    (MuJoCo manual, Computation, Parameters). A joint that neither holds has no such excuse.
+    (MuJoCo manual, Computation, Parameters); t counts as two steps where it is less (`refsafe`). A
+    joint that neither holds has no such excuse.
     """
-    free = np.abs(data.qacc_smooth)
+    free, least = np.abs(data.qacc_smooth), 2.0 * model.opt.timestep
     stop = _softness(model.jnt_solimp) * free
-    sag = stop * (model.jnt_solimp[:, 1] * model.jnt_solref[:, :2].prod(axis=1)) ** 2
-    creep = (
-        _softness(model.dof_solimp) * free * model.dof_solimp[:, 1] * model.dof_solref[:, 0] / 2.0
-    )
+    times = np.fmax(model.jnt_solref[:, 0], least) * model.jnt_solref[:, 1]
+    sag = stop * (model.jnt_solimp[:, 1] * times) ** 2
+    slow = model.dof_solimp[:, 1] * np.fmax(model.dof_solref[:, 0], least)
+    creep = _softness(model.dof_solimp) * free * slow / 2.0
     held = np.where(model.dof_frictionloss > 0.0, creep * SETTLE_SECONDS, 0.0)
     stopped = np.where(model.jnt_limited, sag / model.jnt_solimp[:, 0], 0.0)
     return np.asarray(bounds.settle_factor.value * (held + stopped) + bounds.settle_floor.value)

@@ -13,6 +13,7 @@ from artgen.core.mesh import TriMesh
 from artgen.validate.assembly import Assembly, Geometry, merged, moved
 from artgen.validate.passages import found_passages
 from artgen.validate.physics import compiled_spec
+from artgen.validate.second_opinion import NEED, absent
 from artgen.validate.subject import Link, Subject, SubjectPart
 
 NEVER_SAID = {
@@ -34,6 +35,9 @@ class ForeignSubject(Subject):
         """Why the file cannot say what a check needs."""
         if need in NEVER_SAID:
             return NEVER_SAID[need].format(format=self.format)
+        if need == NEED:
+            only = f"asked of URDF alone; pinocchio does not read {self.format}"
+            return absent() if self.format == "urdf" else only
         if need == "visual meshes" and not self.visuals:
             return f"no link of the {self.format} file has a visual shape"
         if need == "collision" and not self.contact_shapes:

@@ -269,6 +269,7 @@ def _stated(file: str, body: mujoco.MjsBody, turns: float) -> Iterator[StatedJoi
             upper=np.nan if off else float(upper * unit),
             friction=float(np.ravel(joint.frictionloss)[0]),
             damping=float(np.ravel(joint.damping)[0]),
+            effort=float(joint.actfrcrange[1]) if joint.actfrcrange[1] > 0.0 else None,
         )
         parent = child
 

@@ -86,14 +86,17 @@ def simulating(model: mujoco.MjModel, *, off: int = 0, on: int = 0) -> Iterator[
 
 
 COARSE = 0.005
-"""s; for questions that creep, sag and arrival answer: none depends on the step, and friction is
-met to 1.5 mm. A step must stay below half of a constraint's time constant, 0.02 s by default."""
+"""s; for questions that creep, sag and arrival answer: friction is met to 1.5 mm. Constraints
+that are stiffer than two steps are softened to two steps by MuJoCo (`refsafe`)."""
 
 
 def coarse_step(model: mujoco.MjModel) -> float:
-    """The step of `COARSE`, or the model's own where springs or stiff stops may need it."""
-    soft = not model.jnt_stiffness.any() and (model.jnt_solref[:, 0] >= 4.0 * COARSE).all()
-    return COARSE if soft and model.opt.timestep < COARSE else float(model.opt.timestep)
+    """The step of `COARSE`, or the model's own where springs need it or it is coarser."""
+    return (
+        float(model.opt.timestep)
+        if model.jnt_stiffness.any()
+        else max(COARSE, float(model.opt.timestep))
+    )
 
 
 def warnings_of(data: mujoco.MjData) -> list[str]:

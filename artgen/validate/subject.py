@@ -145,6 +145,16 @@ class Subject(ABC):
     def model_files(self) -> tuple[str, ...]:
         """Files that MuJoCo compiles; dynamics uses the first."""
 
+    @property
+    def urdf_file(self) -> str:
+        """The model file that is a URDF; asked for where `lacks("urdf")` is None alone."""
+        return self.model_files[-1]
+
+    @property
+    def urdf_text(self) -> str:
+        """The URDF of the asset, with its meshes named but not read."""
+        return (self.source.root / self.urdf_file).read_text(encoding="utf-8")
+
     @abstractmethod
     def spec(self, file: str) -> mujoco.MjSpec:
         """What MuJoCo reads from a file; ValueError where it refuses."""

@@ -142,6 +142,15 @@ class UrdfSubject(ForeignSubject):
         name = mesh.get("filename", "")
         return read_mesh(inside(self.source.root, self.source.file.parent, name), scale)
 
+    @property
+    def urdf_text(self) -> str:
+        """The document without shapes, which pinocchio would look for."""
+        robot = copy.deepcopy(self.robot)
+        for link in robot.iterfind("link"):
+            for shape in (*link.findall("visual"), *link.findall("collision")):
+                link.remove(shape)
+        return ET.tostring(robot, encoding="unicode")
+
     def spec(self, file: str) -> mujoco.MjSpec:
         """What MuJoCo reads; it gets meshes as bytes under names of ours, and opens no file."""
         quiet()
