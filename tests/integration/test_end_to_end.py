@@ -17,7 +17,7 @@ from artgen.dataset import ShardDataset
 pytestmark = [pytest.mark.blender, pytest.mark.slow, pytest.mark.xdist_group("end_to_end")]
 
 SMALL = ["--count", "3", "--views", "2", "--states", "2", "--size", "32", "--seed", "5"]
-OTHERS = {"logs", "work", ".lock"}
+OTHERS = {"logs", "work", ".lock", "render_report.json"}
 """Times, caches and the lock: not part of a run's content."""
 
 
