@@ -1,7 +1,9 @@
 """`artgen render`: renders what is missing, in any number of processes, and says what is wrong."""
 
+import dataclasses
 import hashlib
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -13,6 +15,7 @@ from artgen.dataset import open_shard
 from artgen.dataset.cli import shard
 from artgen.export import Bundle
 from renders.cli import render
+from renders.settings import CameraSettings, SensorSettings, Settings
 
 GENERATED = ("seed", "index", "rule", "params", "versions")
 """Keys of a manifest that only `artgen generate` writes."""
@@ -120,6 +123,22 @@ def test_any_folder_of_bundles_is_rendered_beside_itself(bundle: Bundle, tmp_pat
 def test_nonsense_is_refused(tmp_path: Path, words: list[str], said: str) -> None:
     with pytest.raises(UsageError, match=said):
         render([str(tmp_path), *words])
+
+
+def test_help_explains_every_option(capsys: pytest.CaptureFixture[str]) -> None:
+    """Words follow every option: a choice, a type, and what it does in which unit."""
+    with pytest.raises(SystemExit) as stop:
+        render(["--help"])
+    assert stop.value.code == 0
+    said = " ".join(capsys.readouterr().out.replace("│", " ").split())
+    groups = {"": Settings, "cameras.": CameraSettings, "sensor.": SensorSettings}
+    for prefix, group in groups.items():
+        for field in dataclasses.fields(group):
+            if not dataclasses.is_dataclass(field.default_factory):
+                option = f"--{prefix}{field.name.replace('_', '-')}"
+                assert re.search(rf"{re.escape(option)}\b[^(]*[a-z]{{3,}} [^(]*\(", said), option
+    for word in ("--preset", "--name", "--out", "--workers", "--seed"):
+        assert word in said
 
 
 def test_a_missing_folder_is_told(tmp_path: Path) -> None:

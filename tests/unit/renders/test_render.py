@@ -101,6 +101,32 @@ def test_no_part_reaches_beyond_its_window(
         assert not outside.any()
 
 
+def test_a_blurred_part_stays_inside_its_window(
+    bundle: Bundle, blender: BlenderWorker, tmp_path: Path
+) -> None:
+    """The window holds all that the part sweeps while the shutter is open, and no less is seen than
+    the still part covers for a moment."""
+    moving = Settings(
+        views=1, states=2, size=64, accuracy="8spp", motion="trajectory", motion_blur=1.0
+    )
+    plan = planned(bundle, tmp_path / "plan", moving)
+    door = [part.name for part in bundle.parts].index("door")
+    assert plan.states[1]["door_hinge"] > 0.1
+    blurred = with_shots(plan, [shot("a.exr", part="door", samples=16)], tmp_path / "a")
+    still = dataclasses.replace(
+        blurred,
+        exposures=(),
+        transport=dataclasses.replace(plan.job.transport, motion_blur=False),
+        folder=str(tmp_path / "plan"),
+    )
+    (image,), (sharp,) = rendered(blender, blurred), rendered(blender, still)
+    left, top, right, bottom = plan.passes.boxes[0][0][door]
+    inside = image[top:bottom, left:right, 3].sum()
+    assert image[..., 3].sum() == inside
+    assert np.count_nonzero(image[..., 3]) > 1.2 * np.count_nonzero(sharp[..., 3])
+    assert image[..., 3].min() >= 0.0
+
+
 def test_a_window_shows_what_the_whole_image_shows_there(
     plan: RenderPlan, blender: BlenderWorker, tmp_path: Path
 ) -> None:
