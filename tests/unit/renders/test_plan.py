@@ -17,6 +17,7 @@ from artgen.core.errors import RenderError
 from artgen.core.stream import Stream
 from artgen.core.transform import apply
 from artgen.export import Bundle
+from renders.asset import check_memory
 from renders.passes import APRON, windows
 from renders.plan import MOMENTS, RenderPlan, plan_render
 from renders.settings import CameraSettings, Settings
@@ -145,3 +146,12 @@ def test_sizes_that_cannot_be_rendered_are_told(bundle: Bundle, factor: float) -
         check_size(bundle, meshes, corners * factor)
     with pytest.raises(RenderError, match="move it to the origin"):
         check_size(bundle, meshes, corners + 200.0)
+
+
+@pytest.mark.blender
+def test_images_that_would_not_fit_are_refused(bundle: Bundle) -> None:
+    """2 views x 2 states of 32 px with 4 parts: 2.5 x 4 x 1024 x (48 + 80) bytes."""
+    plan = planned(bundle, Settings(views=2, states=2, size=32))
+    check_memory(plan, 1_310_720)
+    with pytest.raises(RenderError, match=r"take about 0.0 GB .*fewer --views, --states"):
+        check_memory(plan, 1_310_719)
