@@ -58,12 +58,14 @@ class ObjectStore:
 
     def ranges(self, name: str, ranges: Sequence[Range]) -> list[bytes]:
         """Range requests, ten at a time."""
-        if not ranges:
-            return []
-        starts, lengths = zip(*ranges, strict=True)
+        asked = sorted({(offset, size) for offset, size in ranges if size})
+        if not asked:
+            return [b"" for _ in ranges]
+        starts, lengths = zip(*asked, strict=True)
         with self._explained(name):
-            found = obstore.get_ranges(self._bucket, name, starts=starts, lengths=lengths)
-        return [bytes(data) for data in found]
+            data = obstore.get_ranges(self._bucket, name, starts=starts, lengths=lengths)
+        found = dict(zip(asked, map(bytes, data), strict=True))
+        return [found.get(wanted, b"") for wanted in ranges]
 
     def put(self, name: str, content: bytes | Path) -> None:
         """Write an object, replacing an older one; a file goes up in parts."""

@@ -22,8 +22,6 @@ from artgen.dataset.store import LocalStore, Store
 SHARD_SCHEMA = "artgen-shard/2"
 HEADER = 512
 """Bytes of a USTAR header; a member's data follow it."""
-RECORD = 10240
-"""A tar's length is a multiple of this, bytes; the end is zeros."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -44,6 +44,16 @@ class Store(Protocol):
         """
 
 
+class Target(Store, Protocol):
+    """A store to publish to."""
+
+    def put(self, name: str, content: bytes | Path) -> None:
+        """Write a file, replacing an older one; readers see all of it or nothing."""
+
+    def put_new(self, name: str, content: bytes) -> bool:
+        """Write a file unless there is one; whether it was written."""
+
+
 @dataclass(frozen=True)
 class LocalStore:
     """A folder; `ranges` reads with `pread`, near ranges at once."""
@@ -102,16 +112,25 @@ def opened_store(place: Path | str) -> Store:
     Raises:
         UsageError: a URL is given and the `s3` extra is not installed.
     """
-    if "://" not in str(place):
-        return LocalStore(Path(place))
+    return opened_target(str(place)) if "://" in str(place) else LocalStore(Path(place))
+
+
+def opened_target(url: str) -> Target:
+    """The object store at a URL such as `s3://bucket/prefix`.
+
+    Raises:
+        UsageError: it is no URL, or the `s3` extra is not installed.
+    """
+    if "://" not in url:
+        raise UsageError(f"{url}: is no URL; expected one such as s3://bucket/prefix")
     try:
         module = importlib.import_module("artgen.dataset.object_store")
     except ModuleNotFoundError as error:
         raise UsageError(
-            f"{place}: object stores need {error.name}; install it with `pip install 'artgen[s3]'`"
+            f"{url}: object stores need {error.name}; install it with `pip install 'artgen[s3]'`"
         ) from error
-    store: Store = module.ObjectStore(str(place).rstrip("/"))
-    return store
+    target: Target = module.ObjectStore(url.rstrip("/"))
+    return target
 
 
 def split_place(shard: Path | str) -> tuple[Store, str]:

@@ -16,7 +16,6 @@ from artgen.dataset.contents import CONTENTS, read_contents
 from artgen.dataset.index import Index, Place, crc32c
 from artgen.dataset.shard import (
     HEADER,
-    RECORD,
     ShardManifest,
     header,
     index_name,
@@ -24,7 +23,7 @@ from artgen.dataset.shard import (
     read_index,
     read_manifest,
 )
-from artgen.dataset.store import Store
+from artgen.dataset.store import Range, Store
 
 _WINDOW = 64
 """Members that are read at once."""
@@ -60,12 +59,12 @@ def damages(store: Store, name: str) -> Iterator[Damage]:
     except ShardError as error:
         yield Damage(shard=where, key=sidecar, offset=0, reason=str(error))
         return
-    try:
-        yield from _tar_damages(store, name, manifest, index)
-    except FileNotFoundError:
-        yield Damage(
-            shard=where, key="", offset=0, reason="the tar is missing, only its sidecars are here"
-        )
+    size = store.size(name)
+    if size is None:
+        reason = "the tar is missing, only its sidecars are here"
+        yield Damage(shard=where, key="", offset=0, reason=reason)
+    else:
+        yield from _tar_damages(store, name, manifest, index, size)
 
 
 def folder_damages(
@@ -103,12 +102,12 @@ def shard_names(store: Store) -> list[str]:
 
 
 def _tar_damages(
-    store: Store, name: str, manifest: ShardManifest, index: Index
+    store: Store, name: str, manifest: ShardManifest, index: Index, size: int
 ) -> Iterator[Damage]:
     where, digest, found, end = store.where(name), hashlib.sha256(), 0, 0
     places = ((asset_id, place) for asset_id in index for place in index[asset_id])
     while window := list(islice(places, _WINDOW)):
-        spans = [_span(place) for _, place in window]
+        spans = [_span(place, size) for _, place in window]
         for (asset_id, place), data in zip(window, store.ranges(name, spans), strict=True):
             digest.update(data)
             key = f"{asset_id}.{place.name}"
@@ -116,23 +115,24 @@ def _tar_damages(
                 found += 1
                 yield Damage(shard=where, key=key, offset=offset, reason=reason)
         end = sum(spans[-1])
-    (tail,) = store.ranges(name, [(end, manifest.bytes - end + RECORD)])
+    (tail,) = store.ranges(name, [(end, size - end)]) if size > end else (b"",)
     digest.update(tail)
     if tail.strip(b"\0"):
         found += 1
         yield Damage(shard=where, key="", offset=end + _first(tail), reason="is not zero")
-    elif end + len(tail) != manifest.bytes:
+    elif size != manifest.bytes and size >= end:
         found += 1
-        reason = f"the tar is {end + len(tail)} bytes, its manifest says {manifest.bytes}"
-        yield Damage(shard=where, key="", offset=end + len(tail), reason=reason)
+        reason = f"the tar is {size} bytes, its manifest says {manifest.bytes}"
+        yield Damage(shard=where, key="", offset=size, reason=reason)
     if not found and digest.hexdigest() != manifest.sha256:
         reason = f"sha256 is {digest.hexdigest()[:12]}..., its manifest says another"
         yield Damage(shard=where, key="", offset=0, reason=reason)
 
 
-def _span(place: Place) -> tuple[int, int]:
-    """Offset and size of a member with its header and its padding."""
-    return place.offset - HEADER, HEADER + place.size + _padding(place)
+def _span(place: Place, end: int) -> Range:
+    """Of a member with its header and its padding, cut at the end of the tar."""
+    start, stop = place.offset - HEADER, place.offset + place.size + _padding(place)
+    return min(start, end), max(0, min(stop, end) - start)
 
 
 def _padding(place: Place) -> int:
