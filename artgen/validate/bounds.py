@@ -67,8 +67,8 @@ class Bounds:
     uniform_ratio: Bound
     pinocchio: Bound
     gap_slack: Bound
+    hollow_least: Bound
     open_interior: Bound
-    handle_reach: Bound
     opened: Bound
     closed: Bound
     drive_time: Bound
@@ -78,7 +78,6 @@ class Bounds:
     hold_margin: Bound
     tilt: Bound
     drop: Bound
-    support: Bound
 
     @property
     def digest(self) -> str:

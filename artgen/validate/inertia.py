@@ -109,6 +109,19 @@ def centers(subject: Subject) -> Iterator[Finding]:
             yield _finding("inertia.extent", part.name, worst, "0 to 1 of the box's", cause, remedy)
 
 
+def ratio(subject: Subject) -> Iterator[Finding]:
+    """The heaviest part is not so much heavier than the lightest that solvers lose the latter."""
+    bound = subject.bounds.mass_ratio
+    masses = {part.name: part.mass.mass for part in subject.parts if part.mass is not None}
+    if not masses:
+        return
+    light, heavy = min(masses, key=masses.__getitem__), max(masses, key=masses.__getitem__)
+    if masses[heavy] / masses[light] > bound.value:
+        cause, remedy = f"{heavy} outweighs it", "make it part of what carries it"
+        value = masses[heavy] / masses[light]
+        yield _finding("inertia.ratio", light, value, bound.at_most(), cause, remedy)
+
+
 def uniform(subject: Subject) -> Iterator[Finding]:
     """Where no densities are stated: principal moments are like those of a uniform solid."""
     bound = subject.bounds.uniform_ratio

@@ -145,6 +145,9 @@ FOREIGN: dict[str, tuple[str, str, Edit]] = {
     "a thousand times its mass": (
         "inertia.density", "door", in_link("door", "inertial/mass", "value", "4000"),
     ),
+    "part of a gram in a ton": (
+        "inertia.ratio", "drawer", in_link("drawer", "inertial/mass", "value", "4e-6"),
+    ),
     "center elsewhere": (
         "inertia.center", "door", in_link("door", "inertial/origin", "xyz", "0 1 0"),
     ),

@@ -60,9 +60,10 @@ def test_a_state_is_told_in_words() -> None:
 def test_poses_over_a_sweep_are_those_of_forward_kinematics(
     tree: tuple[Joint, ...], data: st.DataObject
 ) -> None:
-    """Only moving parts are computed anew; the arithmetic is the same, so equality is exact."""
+    """Only moving parts are computed anew, all poses at once; products may be summed in another
+    order: four of them lose 4 ulp of 2.2e-16 each, in a tree of some meters."""
     chosen = data.draw(st.sampled_from(list(sweeps(tree, ()))))
     poses = sweep_poses("part_0", tree, chosen)
     for k, state in enumerate(chosen.states):
         for name, pose in forward_kinematics("part_0", tree, state).items():
-            np.testing.assert_array_equal(poses[name][k], pose)
+            np.testing.assert_allclose(poses[name][k], pose, rtol=0, atol=1e-14)
