@@ -124,7 +124,8 @@ def _set_output(scene: bpy.types.Scene, task: RenderJob) -> None:
 
 
 def _limit(cycles: Any, transport: Transport, most: float) -> None:
-    """Bounces by kind of light transport, none more than `most`."""
+    """Bounces by kind of light transport, none more than `most`; all kinds together as many as
+    they sum up to, so that no kind takes from another."""
     cycles.diffuse_bounces = min(transport.diffuse, most)
     cycles.glossy_bounces = min(transport.glossy, most)
     cycles.transmission_bounces = min(transport.transmission, most)
