@@ -1,7 +1,7 @@
 """Bundle and stream to RenderPlan: states, cameras, lights, passes; all chance is spent here."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,7 @@ from artgen.core.stream import Stream
 from artgen.dataset.sample import Cameras
 from artgen.export import Bundle
 from artgen.export.layout import GLB
-from artgen.render_job import LightRig, RenderJob
+from artgen.render_job import Ground, LightRig, RenderJob
 from artgen.transport import needed_transport
 from renders.accuracy import Quality, quality
 from renders.cameras import placed_cameras, stated_cameras
@@ -26,6 +26,8 @@ from renders.passes import Passes, planned_passes
 from renders.settings import Settings
 from renders.subject import check_size, hull_corners, loaded_meshes, moved_corners
 
+GROUND = 20.0
+"""Radius of the floor, in radii of the object: softboxes stand 3.5 to 5 off, shadows end before."""
 MOMENTS = 5
 """Poses of a moving part while the shutter is open; parts ease, so straight lines between them are
 off by a hundredth of the way."""
@@ -87,7 +89,7 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
     passes = planned_passes(
         names, hulls, shown, cameras, samples=paths.samples, part_samples=paths.part_samples
     )
-    rig = _rig(stream.child("lights"), corners)
+    rig = _rig(stream.child("lights"), meshes, corners, settings)
     job = RenderJob(
         glb=str(bundle.folder.resolve() / GLB),
         folder=str(folder.resolve()),
@@ -157,8 +159,18 @@ def _shutter(time: float, settings: Settings) -> list[float]:
     return [time, *moments[1:]] if start == time else [*moments[:-1], time]
 
 
-def _rig(stream: Stream, corners: Floats) -> LightRig:
+def _rig(
+    stream: Stream, meshes: Sequence[TriMesh], corners: Floats, settings: Settings
+) -> LightRig:
+    """The lights, sized by all states; and the floor on which the object stands at rest."""
     low, high = corners.min(axis=0), corners.max(axis=0)
-    return studio_rig(
-        stream, center=(low + high) / 2.0, radius=float(np.linalg.norm(high - low) / 2.0)
+    center, radius = (low + high) / 2.0, float(np.linalg.norm(high - low) / 2.0)
+    rig = studio_rig(stream, center=center, radius=radius)
+    if not settings.ground:
+        return rig
+    floor = Ground(
+        height=min(float(mesh.bounds[0, 2]) for mesh in meshes),
+        center=(float(center[0]), float(center[1])),
+        radius=GROUND * radius,
     )
+    return replace(rig, ground=floor)

@@ -120,6 +120,17 @@ def test_windows_hold_what_moves_while_the_shutter_is_open(bundle: Bundle) -> No
 
 
 @pytest.mark.blender
+def test_a_floor_lies_under_the_object_and_below_all_eyes(bundle: Bundle) -> None:
+    settings = Settings(views=40, size=32, ground=True, cameras=CameraSettings(scheme="sphere"))
+    plan = planned(bundle, settings)
+    ground = plan.job.rig.ground
+    assert ground is not None
+    assert ground.height == min(mesh.bounds[0, 2] for mesh in plan.meshes)
+    assert min(camera.position[2] for camera in plan.cameras) > ground.height
+    assert planned(bundle, dataclasses.replace(settings, ground=False)).job.rig.ground is None
+
+
+@pytest.mark.blender
 def test_pose_noise_is_stated_beside_the_truth(bundle: Bundle) -> None:
     quiet = planned(bundle, Settings(views=2, size=32))
     noisy = planned(bundle, Settings(views=2, size=32, cameras=CameraSettings(rotation_noise=0.02)))
