@@ -7,17 +7,17 @@ import numpy as np
 from artgen.core.mesh import Floats
 from artgen.render_job import Shot
 from renders.fast.light import Shine
-from renders.fast.occlusion import Cloud, Occlusion, occlusion, strewn
+from renders.fast.occlusion import Cloud, Occlusion, fitted, occlusion, strewn
 from renders.glb import Skin
 
-PX_PER_CELL = 4
+PX_PER_CELL = 5
 """Grids are as fine as images: this many pixels a cell, along a cube's side, within bounds."""
 WHOLE_CELLS = (24, 48)
 """Along a cube's side, around all parts: 15 to 30 mm each for furniture at 256 px."""
 PART_CELLS = (12, 20)
 """Around one part, which also fills fewer pixels."""
-FINENESS = 48.0
-"""Points across the longest side of a part."""
+SPACING = 0.5
+"""Cells between points on a surface."""
 TOGETHER = 16
 """Grids computed at once, which bounds memory."""
 
@@ -45,11 +45,13 @@ def occlusions(
         skins: the opaque ones.
         size: of the images, px.
     """
-    clouds = _part_clouds(skins)
+    whole, single = (
+        min(max(size // PX_PER_CELL, least), most) ** 3 for least, most in (WHOLE_CELLS, PART_CELLS)
+    )
+    clouds = _part_clouds(skins, whole, single)
     scenes = {scene_of(shot, poses): shot for shot in shots}
     found: dict[Scene, Occlusion] = {}
-    for alone, (least, most) in ((False, WHOLE_CELLS), (True, PART_CELLS)):
-        side = min(max(size // PX_PER_CELL, least), most)
+    for alone, cells in ((False, whole), (True, single)):
         wanted = {
             scene: cloud
             for scene, shot in scenes.items()
@@ -57,22 +59,30 @@ def occlusions(
             and (cloud := _posed(clouds, poses[shot.state], shot.part)) is not None
         }
         for some in _batches(list(wanted)):
-            grids = occlusion([wanted[scene] for scene in some], light, cells=side**3)
+            grids = occlusion([wanted[scene] for scene in some], light, cells=cells)
             found.update(zip(some, grids, strict=True))
     return found
 
 
-def _part_clouds(skins: Sequence[Skin]) -> dict[str, Cloud]:
-    """Points on every part at rest."""
+def _part_clouds(skins: Sequence[Skin], whole: int, single: int) -> dict[str, Cloud]:
+    """Points on every part at rest, dense enough that no cell of either grid misses a surface."""
     triangles: dict[str, list[Floats]] = {}
     for skin in skins:
         triangles.setdefault(skin.part, []).append(skin.vertices[skin.faces])
-    clouds = {}
-    for part, lists in triangles.items():
-        corners = np.concatenate(lists)
-        longest = float(np.ptp(corners.reshape(-1, 3), axis=0).max())
-        clouds[part] = strewn(corners, max(longest, 1e-9) / FINENESS)
-    return clouds
+    corners = {part: np.concatenate(lists) for part, lists in triangles.items()}
+    if not corners:
+        return {}
+    coarse = _cell(np.concatenate(list(corners.values())), whole)
+    return {
+        part: strewn(own, SPACING * min(coarse, _cell(own, single)))
+        for part, own in corners.items()
+    }
+
+
+def _cell(corners: Floats, cells: int) -> float:
+    """Cell size (m) of a grid around triangles (F, 3, 3)."""
+    sizes, _ = fitted(np.ptp(corners.reshape(-1, 3), axis=0)[None], cells)
+    return float(sizes[0])
 
 
 def _posed(

@@ -163,7 +163,10 @@ void main() {
         open += from;
         arriving += k < 4 ? from * lights_seen[k] : from;
     }
-    vec3 shown = arriving + base * sky_seen.x * (open - arriving);
+    // Blocked light bounces until it leaves by the open share: a geometric series, of which half
+    // the walls have the surface's own color and half are dark.
+    vec3 returned = base * sky_seen.x / (1.0 - 0.5 * base * (1.0 - sky_seen.x));
+    vec3 shown = arriving + returned * (open - arriving);
     vec3 straight = mix(vec3(specular), base, metal);
     vec3 reflected = straight * split.x + min(50.0 * straight.g, 1.0) * split.y;
     vec3 diffuse = base * (1.0 - metal) * (1.0 - reflected.g);

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-import psutil
 import tyro
 
 from artgen.core.errors import UsageError
@@ -20,7 +19,7 @@ from artgen.export.layout import MANIFEST
 from artgen.imaging import Bytes, Singles, display, png_file
 from artgen.run_folder import RunFolder
 from artgen.studies.table import write_table
-from renders.backends import BACKENDS, Backend
+from renders.backends import BACKENDS, CYCLES, Backend
 from renders.collect import cast
 from renders.contact_sheet import on_paper
 from renders.plan import RenderPlan, plan_render
@@ -102,7 +101,7 @@ def backends(argv: Sequence[str]) -> int:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Measured:
-    """Images of a plan, and the CPU seconds of this process and its children that they took."""
+    """Images of a plan, and the CPU seconds of this process and of Blender's that they took."""
 
     images: Sequence[Singles]
     cpu_s: float
@@ -117,9 +116,12 @@ def planned(bundle: Bundle, folder: Path, *, size: int, views: int) -> RenderPla
 
 def measured(backend: Backend, plan: RenderPlan, folder: Path) -> Measured:
     """Render everything that a sample needs, and read it."""
-    before = _cpu_seconds()
-    images = list(backend.pictures(plan, folder).images)
-    return Measured(images=images, cpu_s=_cpu_seconds() - before)
+    started = time.process_time()
+    pictures = backend.pictures(plan, folder)
+    images = list(pictures.images)
+    here = time.process_time() - started
+    elsewhere = sum(pictures.cpu.values()) if backend.shading == CYCLES else 0.0
+    return Measured(images=images, cpu_s=here + elsewhere)
 
 
 def compared(
@@ -163,12 +165,6 @@ def side_by_side(plan: RenderPlan, left: Sequence[Singles], right: Sequence[Sing
     chosen = (plan.passes.composite[0][0], plan.passes.composite[-1][1 % len(plan.cameras)])
     pictures = [on_paper(display(images[k])) for k in chosen for images in (left, right)]
     return np.concatenate(pictures, axis=1)
-
-
-def _cpu_seconds() -> float:
-    """User and system time of this process and its living children."""
-    me = psutil.Process()
-    return float(sum(sum(p.cpu_times()[:2]) for p in (me, *me.children(recursive=True))))
 
 
 def _first_of_each(assets: Path) -> list[Path]:

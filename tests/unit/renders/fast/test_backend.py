@@ -92,7 +92,7 @@ def test_a_sample_is_complete_and_says_what_shaded_it(bundle: Bundle, tmp_path: 
 def test_pictures_are_near_those_of_cycles(
     bundle: Bundle, blender: BlenderWorker, tmp_path: Path
 ) -> None:
-    """An open chest with a glass lid: 26.8 dB and 7 codes where it was written; a light that is
+    """An open chest with a glass lid: 26 dB and 8 codes where it was written; a light that is
     missing or doubled is off by 30 codes or more."""
     plan = planned(bundle, tmp_path, Settings(views=2, states=2, size=64))
     cycles = measured(CyclesBackend(blender), plan, tmp_path)
