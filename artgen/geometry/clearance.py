@@ -15,6 +15,11 @@ NEGLIGIBLE = 1e-12
 """m3; two boxes that share less cannot hide an overlap worth reporting (0.1 mm cubed)."""
 WORTH_A_CUT = 3
 """Poses from which cutting both bodies to where they can meet is faster than whole booleans."""
+STRAIGHT = 1e-12
+"""m; places on one line are off it by roundings of 1e-16 of a few meters."""
+SHADOW = 1e-12
+"""m2; over a meter of way it makes `NEGLIGIBLE`. manifold3d rounds outlines to 1e-8 m, so bodies
+that touch flush share more than this and are looked at pose by pose."""
 MARGIN = 1e-3
 """m; keeps the faces of the cut away from those of the other body."""
 
@@ -203,11 +208,33 @@ def _common(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> Flo
         other = other if one.is_empty() else _cut_to(other, carried(other_from_one, _box(one)))
         if one.is_empty() or other.is_empty():
             return volumes
+        if _slides_past(one, other, other_from_one):
+            return volumes
         meeting = _shared(carried(other_from_one, _box(one)), _box(other))[:, 0] > NEGLIGIBLE
         meeting &= _shared(carried(one_from_other, _box(other)), _box(one))[:, 0] > NEGLIGIBLE
     for pose in np.flatnonzero(meeting):
         volumes[pose] = (one.transform(other_from_one[pose, :3]) ^ other).volume()
     return volumes
+
+
+def _slides_past(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> bool:
+    """Whether a body that only slides straight has a shadow along its way that shares no area with
+    the other's: then they meet nowhere on it, told by one boolean in the plane."""
+    turns, places = other_from_one[:, :3, :3], other_from_one[:, :3, 3]
+    way = places[-1] - places[0]
+    length = float(np.linalg.norm(way))
+    if length == 0.0 or (turns != turns[0]).any():
+        return False
+    way = way / length
+    if np.abs(np.cross(places - places[0], way)).max() > STRAIGHT:
+        return False
+    side = np.cross(np.eye(3)[np.argmin(np.abs(way))], way)
+    side /= np.linalg.norm(side)
+    down_the_way = np.stack([side, np.cross(way, side), way])
+    start = np.column_stack([down_the_way @ turns[0], down_the_way @ places[0]])
+    still = np.column_stack([down_the_way, np.zeros(3)])
+    shared = one.transform(start).project() ^ other.transform(still).project()
+    return bool(shared.is_empty() or shared.area() <= SHADOW)
 
 
 def _box(body: m3.Manifold) -> Floats:

@@ -30,7 +30,7 @@ UNDAMPED = (
     | int(mujoco.mjtDisableBit.mjDSBL_EQUALITY)
     | CONTACT
 )
-SWING_STEPS = 120
+SWING_STEPS = 80
 STEPS_A_PERIOD = 60.0
 PUSH = 0.5
 """rad/s or m/s that each joint starts a swing with."""
@@ -139,6 +139,7 @@ def overshoot(model: mujoco.MjModel, joints: Sequence[Joint], forward: bool) -> 
     data.qvel[own] = way * np.minimum([joint.velocity for joint in joints], FASTEST)
     beyond = np.zeros(len(joints))
     with simulating(model, off=CONTACT):
+        model.opt.timestep = coarse_step(model)
         for _ in range(math.ceil(STOP_SECONDS / (CHUNK * model.opt.timestep))):
             mujoco.mj_step(model, data, nstep=CHUNK)
             beyond = np.maximum(beyond, (data.qpos[own] - stop) * way)

@@ -26,7 +26,7 @@ for (const file of process.argv.slice(1)) {
 
 def artgen_accepts(folder: Path) -> str:
     """Our own validation."""
-    return "; ".join(finding.message for finding in validate_bundle(folder).findings)
+    return "; ".join(finding.cause for finding in validate_bundle(folder).findings)
 
 
 def mujoco_loads(folder: Path) -> str:

@@ -92,6 +92,25 @@ def test_each_pose_is_told() -> None:
     assert [o.volume for o in found] == pytest.approx([0.04 * 0.01, 0.08 * 0.01], rel=1e-12)
 
 
+@settings(deadline=None, max_examples=60)
+@given(start=corners, way=corners, size=sizes, axis=axes(), angle=st.floats(-3.0, 3.0))
+def test_a_slide_meets_what_its_poses_meet_one_by_one(
+    start: Triple, way: Triple, size: Triple, axis: Triple, angle: float
+) -> None:
+    """A bar through a frame, or past it: shadows along the way decide for all poses at once."""
+    frame = tube(0.1, 0.07, 0.2, axis="x")
+    turn = axis_angle_matrix(axis, angle)
+    path = np.array([rigid(turn, np.add(start, np.multiply(t, way))) for t in np.linspace(0, 1, 5)])
+    bar, still = slab((0.0, 0.0, 0.0), size), np.repeat(REST, 5, axis=0)
+    found = overlaps([mover("bar", bar, poses=path), mover("frame", frame, poses=still)])
+    volumes = np.zeros(5)
+    for overlap in found:
+        volumes[overlap.pose] = overlap.volume
+    expected = [(bar.transformed(pose) & frame).volume for pose in path]
+    # As in the test of the filter; a shadow of 1e-12 m2 over 0.4 m of bar is less.
+    np.testing.assert_allclose(volumes, expected, rtol=0, atol=3 * NEGLIGIBLE)
+
+
 def test_only_listed_pairs_are_looked_at() -> None:
     movers = [mover(name, cube()) for name in "abc"]
     assert [(o.first, o.second) for o in overlaps(movers, [(0, 2)])] == [("a", "c")]
