@@ -11,6 +11,7 @@ from artgen.core.camera import Camera
 from artgen.dataset.sample import Bytes, Cameras, PartLabel, Sample, SampleMeta
 from artgen.export import Bundle
 from artgen.imaging import Singles, display
+from renders.accuracy import quality
 from renders.glb import read_appearance
 from renders.labels import Labels, cast_labels, poses_by_part
 from renders.paint import paints
@@ -31,7 +32,7 @@ def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> S
     """
     labels = cast(plan)
     whole = np.stack([[linear[k] for k in row] for row in plan.passes.composite])
-    bundle = plan.bundle
+    bundle, extras = plan.bundle, set(plan.settings.extras)
     names = [part.name for part in bundle.parts]
     return Sample(
         meta=_meta(bundle, plan, shading),
@@ -55,10 +56,10 @@ def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> S
         normal=labels.normal,
         part_depth=labels.part_depth,
         part_normal=labels.part_normal,
-        albedo=labels.albedo,
-        roughness=labels.roughness,
+        albedo=labels.albedo if "albedo" in extras else None,
+        roughness=labels.roughness if "roughness" in extras else None,
         flow=labels.flow,
-        linear=whole.astype(np.float16) if "linear" in plan.settings.extras else None,
+        linear=whole.astype(np.float16) if "linear" in extras else None,
     )
 
 
@@ -130,20 +131,11 @@ def _meta(bundle: Bundle, plan: RenderPlan, shading: str) -> SampleMeta:
 def _rendering(plan: RenderPlan) -> dict[str, object]:
     """What was asked for; of Cycles, what that came to, and which light transport was computed with
     reasons."""
-    job = plan.job
-    if plan.settings.backend != "cycles":
-        return {"settings": plan.settings}
-    alone = [shot.samples for shot in job.shots if shot.part is not None]
+    settings = plan.settings
+    if settings.backend != "cycles":
+        return {"settings": settings}
     return {
-        "settings": plan.settings,
-        "quality": {
-            "composite_paths": max(shot.samples for shot in job.shots if shot.part is None),
-            "alone_paths": max(alone, default=0),
-            "denoise": job.denoise,
-            "prefilter": job.prefilter,
-            "denoise_quality": job.denoise_quality,
-            "adaptive": job.adaptive,
-            "bounces": job.bounces,
-        },
-        "transport": job.transport.described(),
+        "settings": settings,
+        "quality": quality(settings.accuracy, settings.size).described(),
+        "transport": plan.job.transport.described(),
     }

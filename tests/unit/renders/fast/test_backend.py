@@ -79,7 +79,7 @@ def test_a_sample_is_complete_and_says_what_shaded_it(bundle: Bundle, tmp_path: 
     check_images(sample)
     assert sample.meta.shading == SHADING
     assert sample.albedo is not None
-    assert sample.roughness is not None
+    assert sample.roughness is None
     assert sample.flow is not None
     assert sample.linear is not None
     assert sample.rgba[..., 3].any(axis=(2, 3)).all()
