@@ -3,7 +3,7 @@ elsewhere."""
 
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 
 from rich.console import Console
 from rich.progress import (
@@ -17,6 +17,16 @@ from rich.progress import (
 
 PLAIN_INTERVAL_S = 15.0
 """Seconds between lines when the output is not a terminal."""
+
+
+Show = Callable[[str, int], AbstractContextManager[Callable[[str], None]]]
+"""`progress`, or `silent`: what long work takes to report on itself."""
+
+
+@contextmanager
+def silent(title: str, total: int) -> Iterator[Callable[[str], None]]:
+    """As `progress`, but nothing is shown."""
+    yield lambda note: None
 
 
 @contextmanager

@@ -42,6 +42,7 @@ ASSETS = pa.schema(
         ("seed", pa.int64()),
         ("index", pa.int64()),
         ("split", pa.string()),
+        ("donors", pa.list_(pa.string())),
         ("verdict", pa.string()),
         ("reason", pa.string()),
         ("mass", pa.float64()),
@@ -107,7 +108,6 @@ def asset_rows(out: Path, packing: Packing) -> Iterator[dict[str, Any]]:
         yield _bundle_columns(asset) | {
             "asset_id": asset.asset_id,
             "category": asset.category,
-            "split": split_of(asset.asset_id),
             "verdict": "valid" if asset.valid else "failed",
             "reason": packing.left_out.get(asset.asset_id),
             "folder": Path(os.path.relpath(asset.bundle, out)).as_posix(),
@@ -125,7 +125,7 @@ def sample_rows(shards: Path, packing: Packing) -> Iterator[dict[str, Any]]:
                 {
                     "asset_id": asset_id,
                     "category": facts["category"],
-                    "split": split_of(asset_id),
+                    "split": split_of(asset_id, facts["donors"]),
                     "shard": manifest.file,
                     "parts": len(facts["parts"]),
                     "q": [list(state.items()) for state in facts["states"]],
@@ -145,6 +145,8 @@ def _bundle_columns(asset: Listed) -> dict[str, Any]:
         "parts": [],
         "joints": [],
         "index": int(number) if number.isdigit() else None,
+        "split": split_of(asset.asset_id),
+        "donors": [],
     }
     try:
         facts = json.loads(path.read_text(encoding="utf-8"))
@@ -163,7 +165,10 @@ def _bundle_columns(asset: Listed) -> dict[str, Any]:
     joints = [_joint_columns(joint) for joint in facts["joints"]]
     slides = [joint["upper"] for joint in joints if joint["type"] == "prismatic"]
     openings = [joint["upper_deg"] for joint in joints if joint["upper_deg"] is not None]
+    donors = facts.get("donors", [])
     return {
+        "split": split_of(asset.asset_id, donors),
+        "donors": donors,
         "seed": facts.get("seed"),
         "index": facts.get("index"),
         "mass": facts["mass"],

@@ -1,7 +1,6 @@
 """A run's folder to its shards and catalog: what `artgen shard` does."""
 
 import json
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,6 +8,7 @@ from artgen.core.errors import ShardError
 from artgen.dataset.catalog import write_catalog
 from artgen.dataset.listing import listed_assets
 from artgen.dataset.packing import PER_SHARD, Packing, pack
+from artgen.progress import Show, silent
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,7 +24,7 @@ def shard_folder(
     out: Path,
     *,
     per_shard: int = PER_SHARD,
-    advance: Callable[[str], None] = lambda note: None,
+    show: Show = silent,
 ) -> Sharded:
     """Pack `samples/<category>/<index>.tar` of every valid asset into `shards/`, write `catalog/`.
 
@@ -39,7 +39,7 @@ def shard_folder(
             f"{out}: holds no sample of a valid asset; make some with `artgen generate` or "
             "`artgen render`"
         )
-    packing = pack(staged, out / "shards", per_shard=per_shard, left_out=left_out, advance=advance)
+    packing = pack(staged, out / "shards", per_shard=per_shard, left_out=left_out, show=show)
     return Sharded(packing=packing, shards=out / "shards", catalog=write_catalog(out, packing))
 
 

@@ -1,7 +1,7 @@
 """Staged samples to shards; which asset lies where depends on the set of assets alone."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,7 +12,8 @@ from artgen.dataset.members import encoded
 from artgen.dataset.reader import OpenShard, open_shard
 from artgen.dataset.sample import Sample
 from artgen.dataset.shard import ShardManifest, is_whole, write_shard
-from artgen.dataset.split import SPLITS, split_of
+from artgen.dataset.split import SPLITS, Split, divided, split_of
+from artgen.progress import Show, silent
 
 PER_SHARD = 1000
 """Samples of one shard: 0.3 to 1 MB each at 128 px, so shards of the usual 0.3 to 1 GB."""
@@ -52,13 +53,27 @@ def stage(path: Path, sample: Sample) -> ShardManifest:
     return write_shard(path, [encoded(sample)])
 
 
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """Which sample goes into which shard.
+
+    Attributes:
+        groups: by the shard's path, asset id to the shard that holds the sample now.
+    """
+
+    folder: Path
+    per_shard: int
+    groups: Mapping[Path, Mapping[str, OpenShard]]
+    left_out: Mapping[str, str]
+
+
 def pack(
     staged: Iterable[Path],
     folder: Path,
     *,
     per_shard: int = PER_SHARD,
     left_out: Mapping[str, str] | None = None,
-    advance: Callable[[str], None] = lambda note: None,
+    show: Show = silent,
 ) -> Packing:
     """Pack staged samples into `<split>-<number>.tar` of at most `per_shard` samples each.
 
@@ -70,77 +85,98 @@ def pack(
     Args:
         staged: tars that `stage` wrote. One that does not open is left out and listed.
         left_out: assets known to be missing, with reasons; passed on to `dataset.json`.
-        advance: called with a shard's name as each is done.
+        show: reports progress, as `artgen.progress.progress` does.
+    """
+    sources, broken = _opened(staged)
+    missing = {**(left_out or {}), **broken}
+    return carry_out(planned(sources, folder, per_shard=per_shard, left_out=missing), show=show)
+
+
+def planned(
+    sources: Iterable[OpenShard], folder: Path, *, per_shard: int, left_out: Mapping[str, str]
+) -> Plan:
+    """Where the samples of these shards go; those whose donors lie in two splits are left out.
+
+    Raises:
+        ShardError: two shards hold one asset, or `per_shard` is less than 1.
     """
     if per_shard < 1:
         raise ShardError(f"{per_shard} samples per shard pack nothing; ask for at least 1")
-    sources, broken = _opened(staged)
-    planned = _planned(sources, folder, per_shard)
-    kept = {path: found for path, group in planned.items() if (found := _kept(path, group))}
-    _clear(folder, keep=set(kept))
+    homes: dict[str, OpenShard] = {}
+    by_split: dict[Split, list[str]] = {split: [] for split in SPLITS}
+    missing = dict(left_out)
+    for shard in sources:
+        for asset_id in shard.manifest.ids:
+            if asset_id in homes:
+                raise ShardError(
+                    f"{shard.place}: {asset_id} is in {homes[asset_id].place} too; remove one"
+                )
+            homes[asset_id] = shard
+            donors = shard.facts(asset_id)["donors"]
+            split = split_of(asset_id, donors)
+            if split is None:
+                missing[asset_id] = divided(donors)
+            else:
+                by_split[split].append(asset_id)
+    groups = {
+        folder / f"{split}-{number:06d}.tar": {name: homes[name] for name in ids}
+        for split, names in by_split.items()
+        for number, ids in enumerate(_cut(sorted(names), per_shard))
+    }
+    left = dict(sorted(missing.items()))
+    return Plan(folder=folder, per_shard=per_shard, groups=groups, left_out=left)
+
+
+def carry_out(plan: Plan, *, show: Show = silent) -> Packing:
+    """Make the shards of a plan that are not there yet, and their list."""
+    kept = {path: found for path, group in plan.groups.items() if (found := _kept(path, group))}
+    _clear(plan.folder, keep=set(kept))
     shards = []
-    for path, group in planned.items():
-        shards.append(kept.get(path) or _packed(path, group))
-        advance(path.stem)
-    packing = Packing(
-        per_shard=per_shard,
-        shards=tuple(shards),
-        left_out=dict(sorted({**(left_out or {}), **broken}.items())),
-    )
-    write_contents(folder, packing.contents)
+    with show("shards", len(plan.groups)) as advance:
+        for path, group in plan.groups.items():
+            shards.append(kept.get(path) or write_group(path, group))
+            advance(path.stem)
+    packing = Packing(per_shard=plan.per_shard, shards=tuple(shards), left_out=plan.left_out)
+    write_contents(plan.folder, packing.contents)
     return packing
 
 
-def shard_count(samples: Iterable[str], per_shard: int) -> int:
-    """How many shards `pack` makes of these asset ids."""
-    splits = [split_of(asset_id) for asset_id in samples]
-    return sum(-(-splits.count(split) // per_shard) for split in SPLITS)
+def write_group(path: Path, group: Mapping[str, OpenShard]) -> ShardManifest:
+    """Write one shard of a plan."""
+    samples = (shard.raw(asset_id) for asset_id, shard in group.items())
+    return write_shard(path, samples, sources_sha256=_digest(group))
 
 
-def _opened(staged: Iterable[Path]) -> tuple[dict[str, OpenShard], dict[str, str]]:
-    """Samples by ascending asset id, and the reasons of those that do not open."""
-    found: dict[str, OpenShard] = {}
+def _opened(staged: Iterable[Path]) -> tuple[list[OpenShard], dict[str, str]]:
+    """Staged samples, and the reasons of those that do not open."""
+    found: list[OpenShard] = []
     broken: dict[str, str] = {}
     for path in staged:
         try:
-            shard = open_shard(path)
+            found.append(open_shard(path))
         except ShardError as error:
             broken[f"{path.parent.name}_{path.stem}"] = str(error)
-            continue
-        for asset_id in shard.manifest.ids:
-            if asset_id in found:
-                raise ShardError(
-                    f"{path}: {asset_id} is in {found[asset_id].place} too; remove one"
-                )
-            found[asset_id] = shard
-    return dict(sorted(found.items())), broken
+    return found, broken
 
 
-def _planned(
-    sources: Mapping[str, OpenShard], folder: Path, per_shard: int
-) -> dict[Path, dict[str, OpenShard]]:
-    planned = {}
-    for split in SPLITS:
-        ids = [asset_id for asset_id in sources if split_of(asset_id) == split]
-        for number, start in enumerate(range(0, len(ids), per_shard)):
-            group = {asset_id: sources[asset_id] for asset_id in ids[start : start + per_shard]}
-            planned[folder / f"{split}-{number:06d}.tar"] = group
-    return planned
+def _cut(names: list[str], per_shard: int) -> list[list[str]]:
+    return [names[start : start + per_shard] for start in range(0, len(names), per_shard)]
 
 
 def _digest(group: Mapping[str, OpenShard]) -> str:
-    return content_hash([[asset_id, shard.manifest.sha256] for asset_id, shard in group.items()])
+    """Of the members' names, sizes and checksums, wherever they lie."""
+    return content_hash(
+        [
+            [asset_id, [(place.name, place.size, place.crc32c) for place in shard.index[asset_id]]]
+            for asset_id, shard in group.items()
+        ]
+    )
 
 
 def _kept(path: Path, group: Mapping[str, OpenShard]) -> ShardManifest | None:
     """The manifest of a shard that is there, whole, and made from just these samples."""
     manifest = is_whole(path)
     return manifest if manifest and manifest.sources_sha256 == _digest(group) else None
-
-
-def _packed(path: Path, group: Mapping[str, OpenShard]) -> ShardManifest:
-    samples = (shard.raw(asset_id) for asset_id, shard in group.items())
-    return write_shard(path, samples, sources_sha256=_digest(group))
 
 
 def _clear(folder: Path, *, keep: set[Path]) -> None:

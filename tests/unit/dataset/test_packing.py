@@ -5,6 +5,7 @@ import resource
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,8 +14,9 @@ from hypothesis import strategies as st
 
 from artgen.core.errors import ShardError
 from artgen.dataset.members import encoded
-from artgen.dataset.packing import pack, shard_count, stage
+from artgen.dataset.packing import pack, stage
 from artgen.dataset.reader import ShardDataset, open_shard
+from artgen.dataset.repack import repack, restore
 from artgen.dataset.shard import is_whole, write_shard
 from artgen.dataset.split import SPLITS, split_of
 from tests.unit.dataset.packed_by_force import PER_SHARD
@@ -70,7 +72,7 @@ def test_every_asset_is_packed_once_and_in_its_own_split(packed):
     assert sorted(name for ids in found.values() for name in ids) == sorted(IDS)
     for split, ids in found.items():
         assert {split_of(name) for name in ids} <= {split}
-    assert len(list(packed.glob("*.tar"))) == shard_count(IDS, PER_SHARD)
+    assert len(list(packed.glob("*.tar"))) == 5  # seven in train, one in test
 
 
 def test_packing_again_touches_no_complete_shard(staged, tmp_path):
@@ -163,3 +165,70 @@ def test_a_full_disk_is_one_clear_error_and_leaves_nothing_half_written(staged, 
         is_whole(path)
     pack(staged.glob("*.tar"), tmp_path, per_shard=PER_SHARD)
     assert content(tmp_path) == content(packed)
+
+
+def test_samples_and_shards_of_any_size_are_packed_to_the_same_bytes(staged, packed, tmp_path):
+    pack(staged.glob("*.tar"), tmp_path / "three", per_shard=3)
+    repack(tmp_path / "three", tmp_path / "two", per_shard=PER_SHARD)
+    assert content(tmp_path / "two") == content(packed)
+
+
+@pytest.mark.parametrize("name", ["train-000001", "train-000001.tar"])
+def test_one_shard_is_restored_to_its_bytes(staged, packed, tmp_path, name):
+    pack(staged.glob("*.tar"), tmp_path / "shards", per_shard=PER_SHARD)
+    others = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "shards").iterdir()}
+    for path in (tmp_path / "shards").glob("train-000001*"):
+        path.write_bytes(path.read_bytes()[:100])
+        del others[path.name]
+    restore(staged, tmp_path / "shards", name)
+    assert content(tmp_path / "shards") == content(packed)
+    kept = {path: (tmp_path / "shards" / path).stat().st_mtime_ns for path in others}
+    assert kept == others
+
+
+def test_a_shard_is_restored_from_a_copy_in_other_shards(staged, packed, tmp_path):
+    pack(staged.glob("*.tar"), tmp_path / "shards", per_shard=PER_SHARD)
+    pack(staged.glob("*.tar"), tmp_path / "copy", per_shard=3)
+    (tmp_path / "shards" / "test-000000.tar").unlink()
+    restore(tmp_path / "copy", tmp_path / "shards", "test-000000")
+    assert content(tmp_path / "shards") == content(packed)
+
+
+def test_what_cannot_be_restored_says_why(staged, packed, tmp_path):
+    pack(staged.glob("*.tar"), tmp_path / "shards", per_shard=PER_SHARD)
+    with pytest.raises(ShardError, match=r"lists no val-000000\.tar; its shards are train-000000"):
+        restore(staged, tmp_path / "shards", "val-000000")
+    with pytest.raises(ShardError, match="into itself"):
+        repack(tmp_path / "shards", tmp_path / "shards", per_shard=1)
+    with pytest.raises(ShardError, match="holds no sample of train-000003"):
+        restore(tmp_path / "shards", tmp_path / "shards", "train-000003")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(ShardError, match="neither samples"):
+        restore(tmp_path / "empty", tmp_path / "shards", "train-000000")
+    for k, name in enumerate(IDS):
+        stage(tmp_path / "changed" / f"{name}.tar", made_sample(name, seed=k + 1, states=1))
+    with pytest.raises(ShardError, match="have changed since"):
+        restore(tmp_path / "changed", tmp_path / "shards", "train-000000")
+
+
+def test_an_asset_goes_where_all_its_donors_are_or_nowhere(tmp_path):
+    """laptop_000001 and laptop_000009 are test assets, laptop_000000 is for training."""
+    lent = {
+        "chair_000000": ("laptop_000001",),
+        "chair_000001": ("laptop_000001", "laptop_000009"),
+        "chair_000002": ("laptop_000000", "laptop_000001"),
+        "chair_000003": ("laptop_000000",),
+    }
+    for name, donors in lent.items():
+        sample = made_sample(name, states=1, views=1, parts=1)
+        stage(tmp_path / f"{name}.tar", replace(sample, meta=replace(sample.meta, donors=donors)))
+    packing = pack(tmp_path.glob("*.tar"), tmp_path / "shards")
+    assert packing.shard_of == {
+        "chair_000000": "test-000000.tar",
+        "chair_000001": "test-000000.tar",
+        "chair_000003": "train-000000.tar",
+    }
+    assert packing.left_out == {
+        "chair_000002": "borrows parts from different splits: laptop_000000 (train), "
+        "laptop_000001 (test)"
+    }

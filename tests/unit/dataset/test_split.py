@@ -2,6 +2,9 @@
 
 from collections import Counter
 
+from hypothesis import given
+from hypothesis import strategies as st
+
 from artgen.dataset.split import split_of
 
 
@@ -18,3 +21,25 @@ def test_ten_per_cent_each_are_kept_for_validation_and_testing():
     count = Counter(split_of(f"cabinet_{index:06d}") for index in range(10_000))
     assert abs(count["test"] - 1000) < 150
     assert abs(count["val"] - 1000) < 150
+
+
+NAMES = st.integers(0, 400).map(lambda index: f"laptop_{index:06d}")
+
+
+@given(donors=st.sets(NAMES, min_size=1, max_size=4))
+def test_an_asset_has_the_split_of_its_donors_or_none(donors):
+    """Its own name says nothing then; so no part is in two splits, and no asset ever moves when
+    others join."""
+    splits = {split_of(donor) for donor in donors}
+    expected = splits.pop() if len(splits) == 1 else None
+    assert split_of("cabinet_000000", donors) == split_of("cabinet_000001", donors) == expected
+
+
+@given(assets=st.dictionaries(NAMES, st.sets(NAMES, max_size=3), max_size=40))
+def test_no_part_is_seen_in_two_splits(assets):
+    seen = {}
+    for asset_id, donors in assets.items():
+        split = split_of(asset_id, donors)
+        for owner in donors or {asset_id}:
+            if split is not None:
+                assert seen.setdefault(owner, split) == split
