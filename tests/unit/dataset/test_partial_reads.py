@@ -65,10 +65,12 @@ def test_eight_of_144_views_are_read_without_touching_the_rest(dataset, preads, 
     assert sum(size for _, size in preads) == sum(place.size for place in asked) + between
     gaps = sum(b.offset - a.offset - a.size >= 2 * HEADER for a, b in pairwise(asked))
     assert len(preads) == 1 + gaps
-    # Beside the facts, the first two members: 8 of 144 views (5.6 %), which are of like sizes.
-    facts = places[1].offset + places[1].size - places[0].offset
-    images = sum(place.size + HEADER for place in places[2:])
-    assert sum(size for _, size in preads) - facts < 0.06 * images
+    # Beside the facts, the first two members: 8 of 144 views are 5.6 %; those of the last state are
+    # a tenth smaller than the others, since its flow is 0.
+    facts = places[1].offset + places[1].size
+    images = places[-1].offset + places[-1].size - facts
+    read = sum(size for _, size in preads) - (facts - places[0].offset)
+    assert read < 0.065 * images
 
 
 def test_a_random_choice_equals_that_of_the_whole(dataset):
