@@ -71,7 +71,10 @@ LEVELS: tuple[Level[Subject], ...] = (
     Level(
         name="L1 mesh files",
         needs=("L0 model",),
-        checks=(Check(mesh.readable, ("mesh.readable",), (), "quick"),),
+        checks=(
+            Check(mesh.readable, ("mesh.readable",), (), "quick"),
+            Check(structure.complete, ("structure.link",), (), "quick"),
+        ),
     ),
     Level(
         name="L1 meshes",

@@ -75,6 +75,21 @@ def links(subject: BundleSubject) -> Iterator[Finding]:
                 yield missing_element(link.get("name", ""), tag)
 
 
+def complete(subject: Subject) -> Iterator[Finding]:
+    """Every part that moves, or has a shape, has mass properties, collision and a visual."""
+    seen, touched = subject.meshes, subject.collision
+    moved = {joint.child for joint in subject.joints}
+    for part in subject.parts:
+        if part.name not in subject.links or part.name not in moved | set(seen) | set(touched):
+            continue  # Between two joints of one body, or a frame that nothing hangs on.
+        has = {
+            "inertial": part.mass is not None,
+            "collision": part.name in touched,
+            "visual": part.name in seen,
+        }
+        yield from (missing_element(part.name, tag) for tag, there in has.items() if not there)
+
+
 def missing_element(part: str, tag: str) -> Finding:
     """A link lacks what simulators need."""
     return Finding(

@@ -125,6 +125,8 @@ FOREIGN: dict[str, tuple[str, str, Edit]] = {
     "axis of 0.707": (
         "structure.axis", "hinge (asset.urdf)", in_joint("hinge", "axis", "xyz", "0 0.707 -0.707"),
     ),
+    "no collision": ("structure.link", "drawer", without("link[@name='drawer']/collision")),
+    "no mass": ("structure.link", "door", without("link[@name='door']/inertial")),
     "two roots": ("structure.tree", "base, door", without("joint[@name='hinge']")),
     "mesh without a file": (
         "files.readable", URDF, in_link("door", "visual/geometry/mesh", "filename", "none.obj"),
