@@ -18,16 +18,17 @@ from artgen.export import read_bundle
 from artgen.export.manifest import versions
 from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
+from renders.accuracy import quality
 from renders.asset import Account, render_asset
-from renders.backends import BACKENDS, Backend
+from renders.backends import BACKENDS, TIMEOUT_PER_IMAGE_S, TIMEOUT_PER_PATH_S, Backend
 from renders.settings import Settings
 from renders.sources import SAFE, Found
 
 log = logging.getLogger(__name__)
 
 ASSET_TIMEOUT_S = 3600.0
-TIMEOUT_PER_IMAGE_S = 60.0
-"""Beyond every limit of the Blender worker itself; a process that hangs for this long is killed."""
+MOST_PARTS = 30
+"""For a limit that is beyond every limit of the Blender worker itself, which tries twice."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,9 +115,17 @@ def run_tasks(
         workers=processes,
         initializer=_open_worker,
         initargs=(folder, settings.backend, max(1, workers // processes)),
-        timeout_s=ASSET_TIMEOUT_S + TIMEOUT_PER_IMAGE_S * settings.views * settings.states,
+        timeout_s=_asset_timeout(settings),
         lost=lambda task, cause: Rendered(asset_id=task.asset_id, message=cause),
     )
+
+
+def _asset_timeout(settings: Settings) -> float:
+    """Seconds after which a process that is still at one asset hangs."""
+    images = (1 + MOST_PARTS) * settings.views * settings.states
+    samples = quality(settings.accuracy, settings.size).samples
+    paths = images * settings.size**2 * samples
+    return ASSET_TIMEOUT_S + 2.0 * (TIMEOUT_PER_IMAGE_S * images + TIMEOUT_PER_PATH_S * paths)
 
 
 def scratch(folder: RunFolder) -> Path:
