@@ -33,7 +33,7 @@ def needed_transport(
     glass = [surface for surface in surfaces if surface.transmission > CLEAR]
     panes = [s for s in glass if s.roughness < PANE_ROUGHNESS and not s.attenuation]
     bodies = [surface for surface in glass if surface not in panes]
-    tinted = [surface for surface in bodies if surface.attenuation]
+    tinted = [s for s in bodies if s.attenuation and min(s.color) < 1.0]
     metals = [surface for surface in surfaces if surface.metallic > 0.5]
     soft = [surface for surface in surfaces if surface.subsurface]
     carved = [surface for surface in surfaces if surface.relief]

@@ -36,20 +36,23 @@ def run(job: Mapping[str, Any], threads: int) -> dict[str, Any]:
     cameras = [add_camera(f"camera_{k}", camera) for k, camera in enumerate(task.cameras)]
     _configure(scene, task, threads)
     clock.stop("import")
-    shots = []
-    for shot in task.shots:
+    seconds: dict[str, dict[str, float]] = {}
+    # Once a shadow catcher was seen, Cycles denoises later images as if it were there; so parts
+    # alone, which it is hidden from, come first.
+    for shot in sorted(task.shots, key=lambda shot: ground is not None and shot.part is None):
         posing.show(shot)
         if ground is not None:
             ground.hide_render = shot.part is not None
         scene.camera = cameras[shot.camera]
         set_window(scene, task.cameras[shot.camera].size, shot.box)
         _render(scene, shot, Path(task.folder))
-        shots.append(clock.stop("composite" if shot.part is None else "alone"))
+        wall, cpu = clock.stop("composite" if shot.part is None else "alone")
+        seconds[shot.file] = {"wall_s": wall, "cpu_s": cpu}
     return {
         "files": [shot.file for shot in task.shots],
         "stages": clock.wall,
         "cpu": clock.cpu,
-        "shots": [{"wall_s": wall, "cpu_s": cpu} for wall, cpu in shots],
+        "shots": [seconds[shot.file] for shot in task.shots],
     }
 
 
@@ -131,7 +134,8 @@ def _limit(cycles: Any, transport: Transport, most: float) -> None:
     cycles.transmission_bounces = min(transport.transmission, most)
     cycles.transparent_max_bounces = transport.transparent
     cycles.volume_bounces = 0
-    cycles.max_bounces = min(max(transport.diffuse, transport.glossy, transport.transmission), most)
+    together = transport.diffuse + transport.glossy + transport.transmission
+    cycles.max_bounces = min(together, most)
     cycles.caustics_reflective = transport.reflective_caustics
     cycles.caustics_refractive = transport.refractive_caustics
     cycles.sample_clamp_indirect = transport.clamp_indirect

@@ -159,7 +159,7 @@ EFFECTS: Mapping[str, Effect] = {
         alone=True,
     ),
     "subsurface": Effect(
-        scene=Scene(subject=_screen, surface=replace(SUBJECT, roughness=0.4, subsurface=0.03)),
+        scene=Scene(subject=_screen, surface=replace(SUBJECT, roughness=0.4, subsurface=0.1)),
         off={"subsurface": ()},
         idle={"subsurface": (Subsurface(surface="stage", depth=0.03),)},
         alone=True,
@@ -174,7 +174,7 @@ EFFECTS: Mapping[str, Effect] = {
         alone=True,
     ),
     "displacement": Effect(
-        scene=Scene(subject=_block, surface=replace(SUBJECT, relief=0.015, relief_size=0.04)),
+        scene=Scene(subject=_block, surface=replace(SUBJECT, relief=0.02, relief_size=0.05)),
         off={"relief": ()},
         idle={"relief": (Relief(surface="stage", height=0.01, size=0.04),)},
         alone=True,
