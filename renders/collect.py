@@ -1,9 +1,10 @@
 """Rendered images and cast labels to a Sample."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from artgen.articulation.kinematics import resolved
 from artgen.articulation.targets import targets
@@ -17,6 +18,10 @@ from renders.labels import Labels, cast_labels, poses_by_part
 from renders.paint import paints
 from renders.plan import RenderPlan
 from renders.raycast import PartCaster
+from renders.sensor import sensed
+
+Effects = dict[str, Mapping[str, float]]
+"""What the sensor drew for each composite, by `s0v00`."""
 
 
 def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> Sample:
@@ -32,10 +37,11 @@ def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> S
     """
     labels = cast(plan)
     whole = np.stack([[linear[k] for k in row] for row in plan.passes.composite])
+    rgba, effects = photographed(plan, whole)
     bundle, extras = plan.bundle, set(plan.settings.extras)
     names = [part.name for part in bundle.parts]
     return Sample(
-        meta=_meta(bundle, plan, shading),
+        meta=_meta(bundle, plan, shading, effects),
         cameras=_cameras(plan),
         stated_cameras=plan.stated,
         targets=targets(
@@ -49,7 +55,7 @@ def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> S
         q=_joint_values(plan),
         center=bundle.center,
         radius=bundle.radius,
-        rgba=display(whole),
+        rgba=rgba,
         part_rgba=_alone(plan, linear),
         part_id=labels.part_id,
         depth=labels.depth,
@@ -61,6 +67,21 @@ def collected(plan: RenderPlan, linear: Sequence[Singles], *, shading: str) -> S
         flow=labels.flow,
         linear=whole.astype(np.float16) if "linear" in extras else None,
     )
+
+
+def photographed(plan: RenderPlan, whole: NDArray[np.float32]) -> tuple[Bytes, Effects]:
+    """Composites (T, V, H, W, 4) as the sensor shows them, and what was drawn for each.
+
+    Parts alone are targets, and stay as rendered."""
+    settings = plan.settings.sensor
+    shown = np.zeros(whole.shape, np.uint8)
+    effects: Effects = {}
+    for t, v in np.ndindex(*whole.shape[:2]):
+        name = f"s{t}v{v:02d}"
+        shown[t, v], drawn = sensed(whole[t, v], settings, plan.sensor.child(name))
+        if drawn:
+            effects[name] = drawn
+    return shown, effects
 
 
 def cast(plan: RenderPlan) -> Labels:
@@ -111,7 +132,7 @@ def _joint_values(plan: RenderPlan) -> np.ndarray[tuple[int, ...], np.dtype[np.f
     return np.array(values, np.float64).reshape(len(rows), len(joints))
 
 
-def _meta(bundle: Bundle, plan: RenderPlan, shading: str) -> SampleMeta:
+def _meta(bundle: Bundle, plan: RenderPlan, shading: str, effects: Effects) -> SampleMeta:
     versions = {name: str(value) for name, value in bundle.manifest.get("versions", {}).items()}
     return SampleMeta(
         asset_id=bundle.asset_id,
@@ -124,6 +145,7 @@ def _meta(bundle: Bundle, plan: RenderPlan, shading: str) -> SampleMeta:
         versions=versions,
         shading=shading,
         light=plan.job.rig.name,
+        effects=effects,
         rendering=_rendering(plan),
     )
 

@@ -21,7 +21,7 @@ from artgen.render_job import Ground, LightRig, RenderJob
 from artgen.transport import needed_transport
 from renders.accuracy import Quality, quality
 from renders.cameras import placed_cameras, stated_cameras
-from renders.lights import studio_rig
+from renders.lights import light_rig
 from renders.passes import Passes, planned_passes
 from renders.settings import Settings
 from renders.subject import check_size, hull_corners, loaded_meshes, moved_corners
@@ -41,6 +41,7 @@ class RenderPlan:
         meshes: of the parts in the bundle's order, at rest.
         poses: part name to `object_from_rest`, for each state.
         stated: what a user is told of the cameras, where that has errors.
+        sensor: chance of what a camera adds after rendering.
     """
 
     bundle: Bundle
@@ -50,6 +51,7 @@ class RenderPlan:
     poses: tuple[dict[str, Floats], ...]
     cameras: tuple[Camera, ...]
     stated: Cameras | None
+    sensor: Stream
     passes: Passes
     job: RenderJob
 
@@ -85,11 +87,11 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         states=len(states),
         radius=bundle.radius,
     )
-    paths = quality(settings.accuracy)
+    paths = quality(settings.accuracy, settings.size)
     passes = planned_passes(
         names, hulls, shown, cameras, samples=paths.samples, part_samples=paths.part_samples
     )
-    rig = _rig(stream.child("lights"), meshes, corners, settings)
+    rig = _rig(stream.child("lights"), meshes, corners, settings, folder)
     job = RenderJob(
         glb=str(bundle.folder.resolve() / GLB),
         folder=str(folder.resolve()),
@@ -110,6 +112,7 @@ def plan_render(bundle: Bundle, stream: Stream, *, settings: Settings, folder: P
         poses=poses,
         cameras=cameras,
         stated=stated,
+        sensor=stream.child("sensor"),
         passes=passes,
         job=job,
     )
@@ -160,12 +163,16 @@ def _shutter(time: float, settings: Settings) -> list[float]:
 
 
 def _rig(
-    stream: Stream, meshes: Sequence[TriMesh], corners: Floats, settings: Settings
+    stream: Stream,
+    meshes: Sequence[TriMesh],
+    corners: Floats,
+    settings: Settings,
+    folder: Path,
 ) -> LightRig:
     """The lights, sized by all states; and the floor on which the object stands at rest."""
     low, high = corners.min(axis=0), corners.max(axis=0)
     center, radius = (low + high) / 2.0, float(np.linalg.norm(high - low) / 2.0)
-    rig = studio_rig(stream, center=center, radius=radius)
+    rig = light_rig(settings.light, stream, center=center, radius=radius, folder=folder)
     if not settings.ground:
         return rig
     floor = Ground(

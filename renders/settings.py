@@ -151,7 +151,6 @@ def checked(settings: Settings) -> Settings:
     for option, known in NAMES.items():
         if (value := attrgetter(option)(settings)) not in known:
             raise _unfit(option, value, f"one of {', '.join(known)}")
-    _check_made(settings)
     _check_fov(settings.cameras.fov)
     _check_extras(settings.extras)
     if settings.motion == "trajectory" and not 2 <= settings.states <= MAX_TRAJECTORY:
@@ -165,15 +164,6 @@ def checked(settings: Settings) -> Settings:
         if settings.backend == "fast" and (value := getattr(settings, option)):
             raise _unfit(option, value, "--backend cycles: the fast backend leaves it out")
     return settings
-
-
-def _check_made(settings: Settings) -> None:
-    """Refuse what has a name but no renderer yet, rather than leave it out in silence."""
-    if settings.light != "studio":
-        raise _unfit("light", settings.light, "studio: no other kind is made yet")
-    for name, off in vars(SensorSettings()).items():
-        if (value := getattr(settings.sensor, name)) != off:
-            raise _unfit(f"sensor.{name}", value, f"{off}: sensor effects are not made yet")
 
 
 def _check_fov(fov: tuple[float, float]) -> None:

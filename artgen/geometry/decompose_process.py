@@ -22,7 +22,7 @@ def main(source: str, target: str) -> None:
         mcts_iterations=int(given["iterations"]),
         seed=0,
     )
-    arrays = {}
+    arrays: dict[str, np.ndarray[tuple[int, ...], np.dtype[np.float64]]] = {}
     for number, (vertices, faces) in enumerate(parts):
         arrays |= {f"v{number}": vertices, f"f{number}": faces}
     np.savez(target, **arrays)
