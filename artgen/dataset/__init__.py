@@ -10,6 +10,7 @@ from artgen.dataset.sample import (
     SampleMeta,
     transparent_cleared,
 )
+from artgen.dataset.sampler import ResumableSampler
 from artgen.dataset.slots import to_slots
 from artgen.dataset.split import split_of
 
@@ -18,6 +19,7 @@ __all__ = [
     "LEFT_OUT",
     "Cameras",
     "PartLabel",
+    "ResumableSampler",
     "Sample",
     "SampleMeta",
     "ShardDataset",

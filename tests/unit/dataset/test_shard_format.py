@@ -4,6 +4,7 @@ import io
 import re
 from pathlib import Path
 
+import duckdb
 import numpy as np
 import pytest
 
@@ -14,6 +15,7 @@ from tests.unit.dataset.runs import WIDE, made_run
 from tests.unit.dataset.scenes import made_sample, with_extras
 
 DOCUMENT = (Path(__file__).parents[3] / "docs" / "shard_format.md").read_text(encoding="utf-8")
+(SQL,) = re.findall(r"```sql\n(.*?)```", DOCUMENT, flags=re.DOTALL)
 READER, QUERY = re.findall(r"```python\n(.*?)```", DOCUMENT, flags=re.DOTALL)
 
 
@@ -38,6 +40,14 @@ def test_both_queries_find_the_wide_laptops(capsys):
     # The laptop that failed validation opens that wide too; each query prints each name once.
     assert all(said.count(name) == 2 for name in [*WIDE, "laptop_000004"])
     assert "laptop_000001" not in said
+
+
+@pytest.mark.usefixtures("in_run")
+def test_the_index_is_asked_without_artgen():
+    rows = duckdb.sql(SQL).fetchall()
+    assert {name for _, name, _, _ in rows} == {"s0v00.rgba.webp"}
+    content = Path("out/shards/train-000000.tar").read_bytes()
+    assert all(content[offset : offset + 4] == b"RIFF" for _, _, offset, _ in rows)
 
 
 def test_every_member_and_array_is_in_the_tables():
