@@ -75,16 +75,19 @@ class Blur:
 
     def __call__(self, radiance: Floats) -> NDArray[np.float32]:
         """(LAYERS, H, 2 H, 3) of a (H, 2 H, 3) image with H = HEIGHT; layer 0 is the image."""
-        rows = np.fft.rfft(radiance, axis=1)
+        rows = np.fft.rfft(radiance, axis=1).transpose(1, 0, 2)
+        parts = np.concatenate([rows.real, rows.imag], axis=2).astype(np.float32)
         layers = [radiance]
         for factors in self._factors:
-            spread = np.einsum("ijm,jmc->imc", factors, rows)
+            real, imaginary = np.split(factors @ parts, 2, axis=2)
+            spread = (real + 1j * imaginary).transpose(1, 0, 2)
             layers.append(np.fft.irfft(spread, n=2 * HEIGHT, axis=1))
         return np.maximum(np.stack(layers), 0.0).astype(np.float32)
 
 
-def _factors(cosine: Floats, area: Floats, alpha: float) -> NDArray[np.complex64]:
-    """(H, H, H + 1) Fourier factors of the GGX lobe of `alpha` about each row's first pixel.
+def _factors(cosine: Floats, area: Floats, alpha: float) -> NDArray[np.float32]:
+    """(H + 1, H, H) Fourier factors of the GGX lobe of `alpha` about each row's first pixel; real,
+    as the lobe is symmetric.
 
     A pixel is 3 degrees wide, so the lobe is kept no narrower than that."""
     squared = max(alpha, 0.03) ** 2
@@ -92,7 +95,8 @@ def _factors(cosine: Floats, area: Floats, alpha: float) -> NDArray[np.complex64
     density = squared / (np.pi * (half * (squared - 1.0) + 1.0) ** 2)
     weight = area * density * np.maximum(cosine, 0.0)
     weight /= weight.sum(axis=(1, 2), keepdims=True)
-    return np.fft.rfft(weight, axis=2).astype(np.complex64)
+    factors = np.fft.rfft(weight, axis=2).real.transpose(2, 0, 1)
+    return np.ascontiguousarray(factors, np.float32)
 
 
 def split_sum(size: int = 32, samples: int = 256) -> NDArray[np.float32]:

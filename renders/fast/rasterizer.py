@@ -342,7 +342,14 @@ def _light(program: moderngl.Program, light: Shine) -> None:
     """Everything that stays while the rig does."""
     _write(program, "sky", light.sky)
     _write(program, "stage", np.array([*light.middle, light.reach]))
-    _write(program, "corners", _padded(light.corners.reshape(-1, 3), 4 * MOST_LIGHTS))
+    wide, high = (
+        light.corners[:, 3] - light.corners[:, 0],
+        light.corners[:, 1] - light.corners[:, 0],
+    )
+    face = np.cross(high, wide)
+    area = np.linalg.norm(face, axis=1, keepdims=True)
+    _write(program, "middles", _padded(light.corners.mean(axis=1), MOST_LIGHTS))
+    _write(program, "faces", _padded(np.concatenate([face / area, area], axis=1), MOST_LIGHTS))
     _write(program, "radiance", _padded(light.radiance, MOST_LIGHTS))
     if "lights" in program:
         program["lights"] = len(light.corners)

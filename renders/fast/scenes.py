@@ -14,7 +14,7 @@ PX_PER_CELL = 5
 """Grids are as fine as images: this many pixels a cell, along a cube's side, within bounds."""
 WHOLE_CELLS = (24, 48)
 """Along a cube's side, around all parts: 15 to 30 mm each for furniture at 256 px."""
-PART_CELLS = (12, 20)
+PART_CELLS = (10, 14)
 """Around one part, which also fills fewer pixels."""
 SPACING = 0.5
 """Cells between points on a surface."""

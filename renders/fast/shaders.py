@@ -1,9 +1,9 @@
 """The shading model `fast/1` in GLSL.
 
-Diffuse: the sky by spherical harmonics, every softbox by the exact form factor of its rectangle
-(Lambert 1760; the edge integrals and the horizon by Heitz et al. 2016, the latter approximated as
-Hill 2016 does). Specular: radiance filtered by roughness, and the split sum (Karis 2013), towards
-the lobe's dominant direction (Lagarde and de Rousiers 2014).
+Diffuse: the sky by spherical harmonics; every softbox as the disk of its area (Wallace, Elmquist,
+Haines 1989), cut by the horizon as Hill (2016) approximates that of Heitz et al. (2016). Specular:
+radiance filtered by roughness, and the split sum (Karis 2013), towards the lobe's dominant
+direction.
 """
 
 MOST_LIGHTS = 16
@@ -36,7 +36,8 @@ LIGHT = """
 uniform vec3 eye;
 uniform vec3 sky[9];
 uniform int lights;
-uniform vec3 corners[4 * MOST_LIGHTS];
+uniform vec3 middles[MOST_LIGHTS];
+uniform vec4 faces[MOST_LIGHTS];  // where each light faces, and its area
 uniform vec3 radiance[MOST_LIGHTS];
 uniform sampler2DArray mirrored;
 uniform vec4 stage;  // middle of the rig, and the distance of its lights
@@ -54,23 +55,12 @@ vec3 sky_on(vec3 n) {
         + sky[7] * n.x * n.z + sky[8] * (n.x * n.x - n.y * n.y));
 }
 
-vec3 edge(vec3 a, vec3 b) {
-    float x = dot(a, b), y = abs(x);
-    float v = (0.8543985 + (0.4965155 + 0.0145206 * y) * y)
-        / (3.4175940 + (4.1616724 + y) * y);
-    return cross(a, b) * (x > 0.0 ? v : 0.5 * inversesqrt(max(1.0 - x * x, 1e-7)) - v);
-}
-
 float form_factor(int light, vec3 n) {
-    vec3 first = corners[4 * light] - place;
-    vec3 facing = cross(corners[4 * light + 1] - corners[4 * light],
-        corners[4 * light + 3] - corners[4 * light]);
-    vec3 a = normalize(first), b = normalize(corners[4 * light + 1] - place);
-    vec3 c = normalize(corners[4 * light + 2] - place);
-    vec3 d = normalize(corners[4 * light + 3] - place);
-    vec3 flux = edge(b, a) + edge(c, b) + edge(d, c) + edge(a, d);
-    float size = length(flux);
-    return dot(first, facing) < 0.0 ? max(0.0, (size * size + dot(flux, n)) / (size + 1.0)) : 0.0;
+    vec3 toward = middles[light] - place;
+    float squared = dot(toward, toward), area = faces[light].w;
+    toward *= inversesqrt(squared);
+    float size = area * max(0.0, -dot(toward, faces[light].xyz)) / (0.5 * TAU * squared + area);
+    return size * max(0.0, size + dot(toward, n)) / (size + 1.0);
 }
 
 vec4 cell(sampler3D image, vec3 n) {

@@ -65,8 +65,8 @@ def test_a_mirror_in_a_furnace_is_lost(backend: FastBackend) -> None:
 
 def test_a_softbox_lights_a_wall_by_its_form_factor(backend: FastBackend) -> None:
     """A square of side 2 s at distance d in front of a point has form factor
-    4 / pi * A * atan(A), A = s / hypot(s, d) (Howell's catalog, B-4, four times). The edge integral
-    is a fit, good to 1e-3."""
+    4 / pi * A * atan(A), A = s / hypot(s, d) (Howell's catalog, B-4, four times). The disk of its
+    area has 1 / (pi + 1) where this is 0.239: 1 % more, and ours hang farther away."""
     wall = skin(box((0.4, 0.05, 0.4), at=(0.0, 0.0, -0.2)), "wall", "white")
     distance, side = 1.0, 1.0
     light = lamp((0.0, -0.025 - distance, 0.0), (0.0, -0.025, 0.0), side)
@@ -74,7 +74,7 @@ def test_a_softbox_lights_a_wall_by_its_form_factor(backend: FastBackend) -> Non
     (image,) = drawn(backend, [wall], [matte("white", 0.8)], camera(wall.vertices), rig=rig)
     reach = (side / 2) / math.hypot(side / 2, distance)
     expected = 0.8 * 4.0 / math.pi * reach * math.atan(reach)
-    assert image[MIDDLE][..., :3] == pytest.approx(expected, rel=5e-3)
+    assert image[MIDDLE][..., :3] == pytest.approx(expected, rel=0.015)
 
 
 def test_a_softbox_does_not_shine_backward(backend: FastBackend) -> None:
