@@ -22,7 +22,7 @@ from renders.fast.context import open_context
 from renders.fast.study import compared, difference, measured
 from renders.glb import read_appearance
 from renders.plan import RenderPlan, plan_render
-from renders.settings import Settings
+from renders.settings import Settings, checked
 
 SETTINGS = Settings(views=2, states=2, size=64, backend="fast", extras=("albedo", "flow", "linear"))
 
@@ -141,3 +141,15 @@ def test_a_damaged_glb_is_told(bundle: Bundle, tmp_path: Path, keep: int) -> Non
     path.write_bytes(whole[:keep])
     with pytest.raises(RenderError, match=r"cut\.glb cannot be read.*generate the asset anew"):
         read_appearance(path)
+
+
+@pytest.mark.parametrize(
+    ("option", "settings"),
+    [
+        ("ground", Settings(backend="fast", ground=True)),
+        ("motion-blur", Settings(backend="fast", motion="trajectory", states=4, motion_blur=0.5)),
+    ],
+)
+def test_what_the_fast_backend_leaves_out_is_refused(option: str, settings: Settings) -> None:
+    with pytest.raises(UsageError, match=f"--{option} .*--backend cycles"):
+        checked(settings)
