@@ -72,7 +72,7 @@ def render(argv: Sequence[str]) -> int:
         Render, args=words, prog="artgen render", default=Render(settings=_preset(words))
     )
     settings = checked(command.settings)
-    quality(settings.accuracy)
+    quality(settings.accuracy, settings.size)
     if command.workers < 1:
         raise UsageError(f"--workers {command.workers}: expected at least 1")
     CHECKS[settings.backend]()

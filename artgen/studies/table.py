@@ -5,7 +5,7 @@ import io
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
-from typing import Any, TypeVar, get_type_hints
+from typing import Any, Literal, TypeVar, get_origin, get_type_hints
 
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import write_bytes
@@ -31,7 +31,7 @@ def write_table(path: Path, rows: Iterable[Any]) -> None:
 
 
 def read_table(path: Path, kind: type[Row]) -> list[Row]:
-    """The rows that `write_table` wrote; str, int, float, bool and their `| None` are understood.
+    """The rows that `write_table` wrote, of str, literals, int, float, bool and their `| None`.
 
     Raises:
         UsageError: the file is missing, or its columns are not the fields of `kind`.
@@ -64,6 +64,8 @@ def _text(value: object) -> str:
 
 
 def _value(text: str, hint: Any) -> Any:
+    if get_origin(hint) is Literal:
+        return text
     kinds = [kind for kind in getattr(hint, "__args__", (hint,)) if kind is not type(None)]
     if text == "" and str not in kinds:
         return None

@@ -47,13 +47,18 @@ class Target:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Pictures:
-    """Linear images of a target's shots with the seconds that each took, warm.
+class Picture:
+    """(h, w, 4) linear premultiplied RGBA of a shot's window, and the seconds that it took, warm:
+    sync, path tracing, denoising, writing the EXR."""
 
-    Attributes:
-        images: (h, w, 4) float16 of each shot's window, linear RGB premultiplied.
-        cpu_s, wall_s: of each shot: sync, path tracing, denoising, writing the EXR.
-    """
+    image: Singles
+    cpu_s: float
+    wall_s: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Pictures:
+    """All pictures of a target in one setting; attributes as of `Picture`, a shot each."""
 
     images: tuple[Singles, ...]
     cpu_s: tuple[float, ...]
@@ -62,7 +67,7 @@ class Pictures:
 
 def target(scene: str, bundle: Bundle, *, size: int, folder: Path) -> Target:
     """Two composites, the base alone, and the largest moving part alone."""
-    settings = Settings(views=1, states=2, size=size)
+    settings = Settings(views=1, states=2, size=size, accuracy="1spp")
     plan = plan_render(bundle, Stream(SEED, "study", scene), settings=settings, folder=folder)
     composites = [plan.passes.composite[t][v] for t, v in VIEWS]
     shots = [plan.passes.shots[k] for k in (*composites, *_alone(plan))]
@@ -84,61 +89,73 @@ def _alone(plan: RenderPlan) -> list[int]:
 
 
 def rendered(
-    seen: Target, setting: Setting, *, seed: int, worker: BlenderWorker, kept: Path
-) -> Pictures:
-    """The pictures of a target, from `kept` where they are there.
+    seen: Target, series: Sequence[Setting], *, seed: int, worker: BlenderWorker, kept: Path
+) -> dict[Setting, Pictures]:
+    """The pictures of settings that differ in nothing but `samples`, from `kept` where they are.
 
     Raises:
         WorkerError: Blender failed.
     """
-    job = asked(seen, setting, seed=seed)
-    identity = content_hash([replace(job, glb="", folder=""), file_hash(Path(job.glb))])[:16]
-    file = kept / f"{seen.scene}_{seen.size}_{identity}.npz"
-    if not file.exists():
-        write_bytes(file, _packed(_render(job, worker)))
-    return _unpacked(file, len(seen.shots))
+    content = file_hash(Path(seen.job.glb))
+    files = {}
+    for setting in series:
+        job = asked(seen, [setting], seed=seed)
+        identity = content_hash([replace(job, glb="", folder=""), content])[:16]
+        files[setting] = kept / f"{seen.scene}_{seen.size}_{identity}.npz"
+    missing = [setting for setting in series if not files[setting].exists()]
+    if missing:
+        made = _render(asked(seen, missing, seed=seed), worker)
+        count = len(seen.shots)
+        for k, setting in enumerate(missing):
+            write_bytes(files[setting], _packed(made[k * count : (k + 1) * count]))
+    return {setting: _unpacked(files[setting], len(seen.shots)) for setting in series}
 
 
 def reference(seen: Target, *, samples: int, worker: BlenderWorker, kept: Path) -> list[Pictures]:
     """Pictures without denoiser from other seeds than the measured ones; an even number of them."""
+    count = 2 * max(1, round(samples / (2 * CHUNK)))
     return [
-        rendered(seen, PLAIN, seed=REFERENCE_SEED + k, worker=worker, kept=kept)
-        for k in range(2 * max(1, round(samples / (2 * CHUNK))))
+        rendered(seen, [PLAIN], seed=REFERENCE_SEED + k, worker=worker, kept=kept)[PLAIN]
+        for k in range(count)
     ]
 
 
-def asked(seen: Target, setting: Setting, *, seed: int) -> RenderJob:
-    """The job of a setting; its first shot warms up and is dropped."""
+def asked(seen: Target, series: Sequence[Setting], *, seed: int) -> RenderJob:
+    """The job of all settings of a series; its first shot warms up and is dropped."""
     first = replace(seen.shots[0], file="warm.exr", samples=1)
-    shots = tuple(replace(shot, samples=setting.samples) for shot in seen.shots)
+    shots = tuple(
+        replace(shot, samples=setting.samples, file=f"{setting.samples}_{shot.file}")
+        for setting in series
+        for shot in seen.shots
+    )
+    shared = series[0]
     return replace(
         seen.job,
         shots=(first, *shots),
         seed=seed,
-        denoise=setting.denoise,
-        prefilter=setting.prefilter,
-        denoise_quality=setting.denoise_quality,
-        adaptive=setting.adaptive,
-        bounces=setting.bounces,
+        denoise=shared.denoise,
+        prefilter=shared.prefilter,
+        denoise_quality=shared.denoise_quality,
+        adaptive=shared.adaptive,
+        bounces=shared.bounces,
     )
 
 
-def _render(job: RenderJob, worker: BlenderWorker) -> Pictures:
+def _render(job: RenderJob, worker: BlenderWorker) -> list[Picture]:
+    """Of every shot but the first."""
     with tempfile.TemporaryDirectory() as scratch:
         report = worker.run(plain(replace(job, folder=scratch)), timeout_s=patience(job.shots))
-        images = tuple(read_exr(Path(scratch) / shot.file) for shot in job.shots[1:])
-    spent = report["shots"][1:]
-    return Pictures(
-        images=images,
-        cpu_s=tuple(shot["cpu_s"] for shot in spent),
-        wall_s=tuple(shot["wall_s"] for shot in spent),
-    )
+        return [
+            Picture(image=read_exr(Path(scratch) / shot.file), **spent)
+            for shot, spent in zip(job.shots[1:], report["shots"][1:], strict=True)
+        ]
 
 
-def _packed(pictures: Pictures) -> bytes:
+def _packed(pictures: Sequence[Picture]) -> bytes:
     buffer = io.BytesIO()
-    images = {f"image_{k}": image.astype(np.float16) for k, image in enumerate(pictures.images)}
-    np.savez(buffer, cpu_s=pictures.cpu_s, wall_s=pictures.wall_s, **images)
+    images = {f"image_{k}": each.image.astype(np.float16) for k, each in enumerate(pictures)}
+    cpu_s, wall_s = ([getattr(each, name) for each in pictures] for name in ("cpu_s", "wall_s"))
+    np.savez(buffer, cpu_s=cpu_s, wall_s=wall_s, **images)
     return buffer.getvalue()
 
 

@@ -35,9 +35,9 @@ class Setting:
 
 
 CENTER = Setting(samples=16)
-RAW = (1, 4, 16, 64, 128, 256)
-DENOISED = (1, 2, 4, 8, 12, 16, 24, 32, 48, 64, 96, 128, 256)
-CROSSED = (4, 16, 64)
+RAW = (1, 4, 16, 64, 128)
+DENOISED = (1, 2, 4, 8, 12, 16, 24, 32, 48, 64, 128, 256)
+CROSSED = (4, 16)
 """Paths at which denoisers are compared."""
 DENOISERS: Sequence[tuple[DenoiseQuality, Prefilter]] = (
     ("high", "accurate"),
@@ -46,25 +46,26 @@ DENOISERS: Sequence[tuple[DenoiseQuality, Prefilter]] = (
     ("fast", "fast"),
     ("fast", "none"),
 )
-ADAPTIVE = (0.1, 0.05, 0.02)
+ADAPTIVE = (0.1, 0.03)
 ADAPTIVE_CAP = 64
 BOUNCES = (1, 2)
-MOST_PATHS = 8.4e6
-"""Of one image of the study: 128 paths a pixel at 256 px, 512 at 128 px."""
+MOST_PATHS = 4.2e6
+"""Of one image of the study: 64 paths a pixel at 256 px, 256 at 128 px."""
 
 
-def study_settings(size: int) -> tuple[Setting, ...]:
-    """Every setting that is measured at `size` px, cheap ones first."""
+def study_series(size: int) -> list[tuple[Setting, ...]]:
+    """Every setting that is measured at `size` px, in series that differ in `samples` alone."""
     chosen = [
-        *(replace(CENTER, samples=n, denoise=False) for n in RAW),
-        *(replace(CENTER, samples=n) for n in DENOISED),
+        tuple(replace(CENTER, samples=n) for n in DENOISED),
+        tuple(replace(CENTER, samples=n, denoise=False) for n in RAW),
         *(
-            replace(CENTER, samples=n, denoise_quality=quality, prefilter=prefilter)
-            for n in CROSSED
-            for quality, prefilter in DENOISERS
+            tuple(replace(CENTER, samples=n, denoise_quality=q, prefilter=p) for n in CROSSED)
+            for q, p in DENOISERS
         ),
-        *(replace(CENTER, samples=ADAPTIVE_CAP, adaptive=noise) for noise in ADAPTIVE),
-        *(replace(CENTER, samples=n, bounces=most) for n in CROSSED for most in BOUNCES),
+        *((replace(CENTER, samples=ADAPTIVE_CAP, adaptive=noise),) for noise in ADAPTIVE),
+        *((replace(CENTER, bounces=most),) for most in BOUNCES),
     ]
-    affordable = [setting for setting in chosen if setting.samples * size**2 <= MOST_PATHS]
-    return tuple(sorted(affordable, key=lambda setting: setting.samples))
+    return [
+        tuple(setting for setting in series if setting.samples * size**2 <= MOST_PATHS)
+        for series in chosen
+    ]

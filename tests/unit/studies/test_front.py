@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -38,12 +39,13 @@ class Line:
     error: float
     cap: int | None
     good: bool
+    kind: Literal["wide", "deep"] = "wide"
 
 
 def test_a_table_survives_a_round_trip(tmp_path: Path) -> None:
     rows = [
         Line(name="a", size=3, error=0.125, cap=None, good=True),
-        Line(name="b, c", size=4, error=float("inf"), cap=8, good=False),
+        Line(name="b, c", size=4, error=float("inf"), cap=8, good=False, kind="deep"),
     ]
     write_table(tmp_path / "t.csv", rows)
     assert read_table(tmp_path / "t.csv", Line) == rows
