@@ -52,7 +52,7 @@ def test_the_sample_says_what_the_bundle_says(bundle: Bundle, sample_path: Path)
     assert [part.name for part in sample.meta.parts] == [part.name for part in bundle.parts]
     assert sample.meta.joints == bundle.joints
     assert sample.meta.rendering["settings"] == plain(SETTINGS)
-    assert sample.meta.rendering["quality"]["composite_paths"] == 2
+    assert sample.meta.rendering["quality"]["samples"] == 2
     assert sample.meta.rendering["transport"]["thin_glass"]["on"]
     assert not sample.q[0].any()
     assert (sample.meta.seed, sample.meta.index) == (3, 1)
