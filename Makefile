@@ -66,6 +66,7 @@ gallery: install ## rewrite the pictures in docs/
 
 bench: install-test ## measure the figures in docs/benchmarks.md
 	$(BIN)/python -m tests.bench.figures
+	$(BIN)/python -m tests.bench.rendering
 
 hard-cases: install-test ## rewrite docs/hard_cases.md with fresh measurements
 	$(BIN)/python -m tests.hard_cases.write
