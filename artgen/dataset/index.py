@@ -6,7 +6,8 @@ the data, past the header), `size`, `crc32c`.
 
 import hashlib
 import io
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import NamedTuple
@@ -29,6 +30,10 @@ COLUMNS = pa.schema(
 )
 
 
+_IMAGE = re.compile(r"s(\d+)v(\d+)\.")
+"""How an image's name begins: its state and its view."""
+
+
 class Place(NamedTuple):
     """Where one member's bytes lie in a tar, and their CRC-32C (Castagnoli)."""
 
@@ -43,24 +48,45 @@ class Index(Mapping[str, tuple[Place, ...]]):
 
     def __init__(self, table: pa.Table) -> None:
         """Of a table with COLUMNS, its strings as dictionaries, the rows of an asset together."""
-        table = table.unify_dictionaries().combine_chunks()
-        ids = table["asset_id"].combine_chunks()
+        table = table.unify_dictionaries()
+        ids, names = (table[column].combine_chunks() for column in ("asset_id", "name"))
         code, words = np.asarray(ids.indices), ids.dictionary.to_pylist()
         ends = [0, *(np.flatnonzero(np.diff(code)) + 1).tolist(), len(code)]
         self._rows = {str(words[code[a]]): slice(a, b) for a, b in pairwise(ends)}
-        self._table = table.drop_columns(["asset_id"])
+        self._name, self._names = np.asarray(names.indices), names.dictionary.to_pylist()
+        self._numbers = tuple(table[column].to_numpy() for column in Place._fields[1:])
+        found = [_IMAGE.match(name) for name in self._names]
+        self._shot = np.array([(int(m[1]), int(m[2])) if m else (-1, -1) for m in found])
 
     def __getitem__(self, asset_id: str) -> tuple[Place, ...]:
-        rows = self._rows[asset_id]
-        part = self._table.slice(rows.start, rows.stop - rows.start)
-        columns = (part[name].to_pylist() for name in Place._fields)
-        return tuple(map(Place, *columns))
+        return self.chosen(asset_id)
+
+    def __contains__(self, asset_id: object) -> bool:
+        return asset_id in self._rows
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._rows)
 
     def __len__(self) -> int:
         return len(self._rows)
+
+    def chosen(
+        self,
+        asset_id: str,
+        *,
+        states: Sequence[int] | None = None,
+        views: Sequence[int] | None = None,
+    ) -> tuple[Place, ...]:
+        """The members that these states and views need: the facts, and their own images."""
+        rows = self._rows[asset_id]
+        name, *numbers = (array[rows] for array in (self._name, *self._numbers))
+        needed = np.ones(len(name), bool)
+        for axis, wanted in enumerate((states, views)):
+            if wanted is not None:
+                needed &= np.isin(self._shot[name, axis], [-1, *wanted])
+        names = [self._names[code] for code in name[needed].tolist()]
+        columns = (array[needed].tolist() for array in numbers)
+        return tuple(map(Place, names, *columns))
 
 
 def crc32c(data: bytes) -> int:

@@ -2,7 +2,6 @@
 
 import io
 import json
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -16,7 +15,6 @@ from artgen.core.errors import ShardError
 from artgen.core.jsonio import canonical_json
 from artgen.dataset import codec
 from artgen.dataset.image_checks import check_images
-from artgen.dataset.index import Place
 from artgen.dataset.sample import Cameras, PartLabel, Sample, SampleMeta
 
 SAMPLE_SCHEMA = "artgen-sample/2"
@@ -32,7 +30,6 @@ CONVENTIONS = {
     "targets": "relative to center, at rest",
     "world": "object frame: z up, front -y",
 }
-_IMAGE_NAME = re.compile(r"s(\d+)v(\d+)\.")
 _OPTIONAL: Mapping[
     str, tuple[str, Callable[[NDArray[Any]], bytes], Callable[[bytes], NDArray[Any]]]
 ] = {
@@ -113,23 +110,6 @@ def decoded(
         radius=float(arrays["radius"]),
         **_stacked([[images(t, v) for v in vs] for t in ts]),
     )
-
-
-def wanted(
-    places: Sequence[Place], states: Sequence[int] | None, views: Sequence[int] | None
-) -> list[Place]:
-    """The members that these states and views need: the facts, and their own images."""
-    if states is None and views is None:
-        return list(places)
-
-    def needed(name: str) -> bool:
-        found = _IMAGE_NAME.match(name)
-        return found is None or (
-            (states is None or int(found[1]) in states)
-            and (views is None or int(found[2]) in views)
-        )
-
-    return [place for place in places if needed(place.name)]
 
 
 def sample_facts(read: Callable[[str], bytes], *, where: str) -> dict[str, Any]:

@@ -69,17 +69,26 @@ class ObjectStore:
 
     def put(self, name: str, content: bytes | Path) -> None:
         """Write an object, replacing an older one; a file goes up in parts."""
-        with self._explained(name):
+        with self._bucket_there(name):
             obstore.put(self._bucket, name, content)
 
     def put_new(self, name: str, content: bytes) -> bool:
         """Write an object unless there is one (`If-None-Match: *`); whether it was written."""
         try:
-            with self._explained(name):
+            with self._bucket_there(name):
                 obstore.put(self._bucket, name, content, mode="create")
         except FileExistsError:
             return False
         return True
+
+    @contextmanager
+    def _bucket_there(self, name: str) -> Iterator[None]:
+        """What must be there for writing is the bucket alone."""
+        try:
+            with self._explained(name):
+                yield
+        except FileNotFoundError as error:
+            raise ShardError(f"{self.url}: there is no such bucket; make it first") from error
 
     @contextmanager
     def _explained(self, name: str) -> Iterator[None]:

@@ -10,7 +10,7 @@ from typing import Any
 from artgen.core.errors import ShardError
 from artgen.dataset.contents import check_contents
 from artgen.dataset.index import Index, Place, crc32c
-from artgen.dataset.members import EncodedSample, decoded, sample_facts, wanted
+from artgen.dataset.members import EncodedSample, decoded, sample_facts
 from artgen.dataset.sample import Sample
 from artgen.dataset.shard import (
     ShardManifest,
@@ -66,11 +66,11 @@ class OpenShard:
 
         Members that lie side by side are read at once.
         """
-        return self._read(asset_id, wanted(self._places(asset_id), states, views))
+        return self._read(asset_id, self._places(asset_id, states, views))
 
     def facts(self, asset_id: str) -> Mapping[str, Any]:
         """What `meta.json` of an asset says, without touching its images."""
-        places = [place for place in self._places(asset_id) if place.name == "meta.json"]
+        places = [place for place in self._places(asset_id, [], []) if place.name == "meta.json"]
         read = partial(self._named, asset_id, self._read(asset_id, places))
         return sample_facts(read, where=f"{self.place}: {asset_id}")
 
@@ -78,11 +78,13 @@ class OpenShard:
         """The members as they are, checksums checked; packing needs no decoding."""
         return EncodedSample(asset_id=asset_id, members=tuple(self.members(asset_id).items()))
 
-    def _places(self, asset_id: str) -> tuple[Place, ...]:
+    def _places(
+        self, asset_id: str, states: Sequence[int] | None, views: Sequence[int] | None
+    ) -> tuple[Place, ...]:
         if asset_id not in self.index:
             first, last = self.manifest.ids[0], self.manifest.ids[-1]
             raise ShardError(f"{self.place}: holds no {asset_id}; it runs from {first} to {last}")
-        return self.index[asset_id]
+        return self.index.chosen(asset_id, states=states, views=views)
 
     def _read(self, asset_id: str, places: Sequence[Place]) -> dict[str, bytes]:
         ranges = [(place.offset, place.size) for place in places]
