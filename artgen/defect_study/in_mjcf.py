@@ -124,7 +124,6 @@ MJCF_DEFECTS = tuple(
         ),
         ("base_hull", "one hull stands for a carcass", in_tree(base_hull)),
         ("body_nan", "a part nowhere", put(MOVING, "pos", "nan 0 0")),
-        ("joint_missing", "a part that is welded shut", removed(JOINT)),
         ("unknown_element", "a word that MuJoCo does not know", put(JOINT, "colour", "red")),
     )
 )

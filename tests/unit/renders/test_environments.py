@@ -1,4 +1,4 @@
-"""Skies and rooms against closed forms: how bright walls are, where the sun stands, what is kept."""
+"""Skies and rooms against closed forms: walls, the sun, power, exposure, what is written."""
 
 import math
 from pathlib import Path
