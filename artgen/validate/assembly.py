@@ -86,11 +86,28 @@ def assembled(
         placed[stated.child] = Link(part=part, object_from_link=pose)
         if stated.moves:
             moving.append(_joint(joint, parent.part, pose))
+    _check_mimics(moving)
     names = [root, *(joint.child for joint in moving)]
     parts = tuple(
         SubjectPart(name=name, label=name, mass=_mass(name, placed, masses)) for name in names
     )
     return Assembly(parts=parts, joints=tuple(moving), links=placed)
+
+
+def _check_mimics(joints: Sequence[Joint]) -> None:
+    """Raise KinematicError for a joint that follows none, itself, or one that follows another."""
+    by_name = {joint.name: joint for joint in joints}
+    for joint in joints:
+        if joint.mimic is None:
+            continue
+        leader = by_name.get(joint.mimic.joint)
+        if leader is None or leader.mimic is not None:
+            raise KinematicError(
+                f"joint {joint.name} follows {joint.mimic.joint!r}, which is no joint that "
+                "moves by itself"
+            )
+        if not np.isfinite([joint.mimic.multiplier, joint.mimic.offset]).all():
+            raise KinematicError(f"joint {joint.name}: its mimic's numbers are not finite")
 
 
 def _parents_first(links: Sequence[str], joints: Sequence[FileJoint]) -> list[FileJoint]:

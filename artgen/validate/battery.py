@@ -111,6 +111,7 @@ LEVELS: tuple[Level[Subject], ...] = (
         needs=("L3 compile",),
         checks=(
             Check(models.joints, ("compile.dof", "compile.joint", "compile.limit"), (), "quick"),
+            Check(models.effects, ("compile.effect",), (), "quick"),
             Check(models.bodies, ("compile.body",), (), "quick"),
         ),
     ),
@@ -148,6 +149,8 @@ LEVELS: tuple[Level[Subject], ...] = (
                 OURS,
             ),
             Check(semantics.hinges, ("semantics.hinge", "semantics.travel"), SEEN),
+            Check(semantics.rests, ("semantics.rest",)),
+            Check(semantics.axes, ("semantics.tilt",)),
             Check(semantics.closed_at_rest, ("semantics.closed",), SEEN),
             Check(interior.interiors, ("semantics.interior",), (*SEEN, "collision"), "full"),
         ),

@@ -38,6 +38,7 @@ class Bounds:
     max_bytes: Bound
     axis_norm: Bound
     full_turn: Bound
+    least_turn: Bound
     smallest: Bound
     largest: Bound
     min_area: Bound
@@ -67,6 +68,9 @@ class Bounds:
     uniform_ratio: Bound
     pinocchio: Bound
     gap_slack: Bound
+    rest_play: Bound
+    axis_slip: Bound
+    axis_slant: Bound
     hollow_least: Bound
     open_interior: Bound
     opened: Bound

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from artgen.core.errors import GeometryError
-from artgen.core.mesh import TriMesh
+from artgen.core.mesh import Ints, TriMesh
 from artgen.export.layout import GLB
 from artgen.geometry.convex import convexity_gap
 from artgen.geometry.measure import closed as edges_close
@@ -17,6 +17,9 @@ from artgen.validate.files import EXPORT_ANEW
 from artgen.validate.glb import node_bounds, read_gltf
 from artgen.validate.report import Finding
 from artgen.validate.subject import Subject
+
+MOST_VERTICES = 2_000_000
+"""Beyond, three indices do not fit into one number of 64 bits."""
 
 
 def readable(subject: Subject) -> Iterator[Finding]:
@@ -37,7 +40,16 @@ def readable(subject: Subject) -> Iterator[Finding]:
 def closed(subject: Subject) -> Iterator[Finding]:
     """Every body is an oriented closed 2-manifold (manifold3d accepts it)."""
     for name, shape in subject.shapes.items():
-        if edges_close(subject.meshes[name].faces):
+        if (count := repeated(subject.meshes[name].faces)) > 0:
+            yield Finding(
+                check="mesh.closed",
+                part=name,
+                value=float(count),
+                bound="0 triangles twice",
+                cause="triangles stand on the same three vertices, so volumes count them twice",
+                remedy="keep one of each",
+            )
+        elif edges_close(subject.meshes[name].faces):
             continue  # Nothing else keeps manifold3d from accepting finite triangles.
         for index, body in enumerate(shape.bodies):
             if (status := body.status().name) != "NoError":
@@ -50,6 +62,16 @@ def closed(subject: Subject) -> Iterator[Finding]:
                     cause=f"manifold3d says {status}: {cause}",
                     remedy="check the solid and its bevel",
                 )
+
+
+def repeated(faces: Ints) -> int:
+    """How many triangles stand on the same three vertices as another."""
+    low, middle, high = np.sort(faces, axis=1).astype(np.int64).T
+    span = int(high.max()) + 1
+    if span > MOST_VERTICES:
+        return len(faces) - len(np.unique(np.sort(faces, axis=1), axis=0))
+    keys = np.sort((low * span + middle) * span + high)
+    return int((keys[1:] == keys[:-1]).sum())
 
 
 def _diagnosis(mesh: TriMesh, body: int) -> tuple[float | str, str]:

@@ -219,9 +219,13 @@ class MjcfSubject(ForeignSubject):
 
     def _geoms(self, *, contact: bool) -> Iterator[Geometry]:
         model = self.whole
+        # MuJoCo lets two geoms meet where the type of one is in the affinity of the other.
+        types = int(np.bitwise_or.reduce(model.geom_contype, initial=0))
+        affinities = int(np.bitwise_or.reduce(model.geom_conaffinity, initial=0))
         unseen = (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD)
         for i in range(model.ngeom):
-            touches = bool(model.geom_contype[i] | model.geom_conaffinity[i])
+            own = model.geom_contype[i] & affinities | model.geom_conaffinity[i] & types
+            touches = bool(own)
             if touches != contact or model.geom_type[i] in unseen:
                 continue
             body = model.body(model.geom_bodyid[i]).name

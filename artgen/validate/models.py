@@ -11,6 +11,16 @@ from artgen.validate.report import Finding
 from artgen.validate.subject import Subject, SubjectPart
 
 SLIDE = int(mujoco.mjtJoint.mjJNT_SLIDE)
+EFFECTS = {
+    "contact": int(mujoco.mjtDisableBit.mjDSBL_CONTACT),
+    "constraint": int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT),
+    "equality": int(mujoco.mjtDisableBit.mjDSBL_EQUALITY),
+    "frictionloss": int(mujoco.mjtDisableBit.mjDSBL_FRICTIONLOSS),
+    "limit": int(mujoco.mjtDisableBit.mjDSBL_LIMIT),
+    "gravity": int(mujoco.mjtDisableBit.mjDSBL_GRAVITY),
+    "spring": int(mujoco.mjtDisableBit.mjDSBL_SPRING),
+    "damper": int(mujoco.mjtDisableBit.mjDSBL_DAMPER),
+}
 HINGE = int(mujoco.mjtJoint.mjJNT_HINGE)
 
 
@@ -28,6 +38,22 @@ def compiles(subject: Subject) -> Iterator[Finding]:
                 cause="MuJoCo refuses the file",
                 remedy="mend the element that its message names",
             )
+
+
+def effects(subject: Subject) -> Iterator[Finding]:
+    """No effect that the object needs is switched off in the file."""
+    for file in subject.model_files:
+        off = subject.model(file).opt.disableflags
+        for name, bit in EFFECTS.items():
+            if off & bit:
+                yield Finding(
+                    check="compile.effect",
+                    part=file,
+                    value=f"{name} is off",
+                    bound=f"{name} in force",
+                    cause="the file switches it off, so whatever it should do does not happen",
+                    remedy="remove the flag",
+                )
 
 
 def joints(subject: Subject) -> Iterator[Finding]:

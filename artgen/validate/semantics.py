@@ -1,5 +1,6 @@
 """L5: the object is what its category says: parts in order, closed at rest, of real size."""
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 
@@ -190,6 +191,30 @@ def hinges(subject: Subject) -> Iterator[Finding]:
                 yield _hinge_finding(
                     "semantics.hinge", joint, distance, f"<= {allowed:.4g} m", cause, remedy
                 )
+
+
+def rests(subject: Subject) -> Iterator[Finding]:
+    """Rest is one end of a joint's way, or the middle of one that turns both ways alike."""
+    play = subject.bounds.rest_play
+    for joint in subject.joints:
+        if joint.limit is None or joint.mimic is not None:
+            continue
+        lower, upper = abs(joint.limit.lower), joint.limit.upper
+        inside, apart = min(lower, upper) / (lower + upper), abs(lower - upper) / (lower + upper)
+        if inside > play.value and apart > play.value:
+            cause, remedy = "it rests ajar", "state the joint from its closed end"
+            yield _hinge_finding("semantics.rest", joint, inside, play.at_most(), cause, remedy)
+
+
+def axes(subject: Subject) -> Iterator[Finding]:
+    """An axis runs along a side of the boxes, or is slanted for all to see; not slightly off."""
+    slip, slant = subject.bounds.axis_slip, subject.bounds.axis_slant
+    for joint in subject.joints:
+        off = math.degrees(math.acos(min(1.0, max(abs(a) for a in joint.axis))))
+        if joint.limit is not None and slip.value < off < slant.value:
+            bound = f"{slip.at_most()}, or {slant.at_least()}"
+            cause, remedy = "its axis is off by a little", "run it along the edge it turns about"
+            yield _hinge_finding("semantics.tilt", joint, off, bound, cause, remedy)
 
 
 def _hinge_finding(

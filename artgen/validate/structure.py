@@ -151,6 +151,10 @@ def limits(subject: Subject) -> Iterator[Finding]:
         if joint.type == "revolute" and span > turn.value:
             cause, remedy = "degrees written for radians, or a continuous joint", "write radians"
             yield _joint_finding("structure.turn", joint, span, turn.at_most(), cause, remedy)
+        elif joint.type == "revolute" and 0.0 < span < subject.bounds.least_turn.value:
+            cause, remedy = "radians read as degrees", "state the unit of angles"
+            bound = subject.bounds.least_turn.at_least()
+            yield _joint_finding("structure.turn", joint, span, bound, cause, remedy)
 
 
 CAUSES = {

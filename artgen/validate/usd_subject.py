@@ -23,6 +23,9 @@ from artgen.validate.stated import StatedBody, StatedJoint
 
 MAX_PRIMS = 200_000
 Z_UP_FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+UNKNOWN = (np.nan, np.nan, np.nan)
+APART = 1e-4
+"""m; float32 places of two bodies a few meters away agree to 1e-6."""
 AXES = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 
 
@@ -59,6 +62,9 @@ class UsdSubject(ForeignSubject):
             self._layers()
             if not any(prim.HasAPI(UsdPhysics.RigidBodyAPI) for prim in self.prims):
                 yield file, "no prim has a PhysicsRigidBodyAPI; there is nothing to move"
+            for joint in (UsdPhysics.Joint(prim) for prim in self.prims):
+                if joint and self._loose(joint):
+                    yield file, f"joint {joint.GetPrim().GetName()} holds what is no rigid body"
         except ArtgenError as error:
             yield file, str(error)
         except (Tf.ErrorException, OSError) as error:
@@ -140,6 +146,17 @@ class UsdSubject(ForeignSubject):
                 rows.append(self._row(joint, str(ends[0]), str(ends[1])))
         return rows
 
+    def _loose(self, joint: UsdPhysics.Joint) -> bool:
+        """Whether an end of a joint is a prim that is no rigid body and holds none."""
+        for relation in (joint.GetBody0Rel(), joint.GetBody1Rel()):
+            for path in relation.GetTargets():
+                bodies = (body.GetPath() for body in self.bodies.values())
+                prim = self.stage.GetPrimAtPath(path)
+                known = prim and self._link_of(prim) is not None
+                if not known and not any(body.HasPrefix(path) for body in bodies):
+                    return True
+        return False
+
     def _end(self, relation: Usd.Relationship) -> str | None:
         targets = relation.GetTargets()
         prim = self.stage.GetPrimAtPath(targets[0]) if targets else None
@@ -157,7 +174,7 @@ class UsdSubject(ForeignSubject):
         ):
             if prim.IsA(schema):
                 kind, own = name, schema(prim)
-                axis = AXES[own.GetAxisAttr().Get() or "X"]
+                axis = AXES.get(own.GetAxisAttr().Get() or "X", UNKNOWN)
                 unit = np.pi / 180.0 if name == "revolute" else unit
                 lower, upper = own.GetLowerLimitAttr().Get(), own.GetUpperLimitAttr().Get()
         if kind == "revolute" and np.isinf([lower, upper]).all():
@@ -167,11 +184,14 @@ class UsdSubject(ForeignSubject):
         place = (
             np.array(joint.GetLocalPos1Attr().Get() or (0.0, 0.0, 0.0), float) * scale * self.unit
         )
-        above, _ = self._pose(self.bodies[parent])
+        above, above_scale = self._pose(self.bodies[parent])
+        held = np.array(joint.GetLocalPos0Attr().Get() or (0.0, 0.0, 0.0), float)
+        gap = apply(pose, place) - apply(above, held * above_scale * self.unit)
         drive = _drive(prim)
+        pivot = UNKNOWN if np.linalg.norm(gap) > APART else tuple(place.tolist())
         stated = StatedJoint(
             file=self.source.file.name, name=prim.GetName(), type=kind, parent=parent, child=child,
-            axis=tuple((turn @ axis).tolist()), origin=tuple(place.tolist()),
+            axis=tuple((turn @ axis).tolist()), origin=pivot,
             lower=float(lower) * unit, upper=float(upper) * unit,
             friction=_first(prim, FRICTION), damping=drive.damping,
             effort=drive.effort or _first(prim, EFFORT), velocity=_first(prim, VELOCITY),

@@ -153,6 +153,11 @@ FOREIGN: dict[str, tuple[str, str, Edit]] = {
     "center elsewhere": (
         "inertia.center", "door", in_link("door", "inertial/origin", "xyz", "0 1 0"),
     ),
+    "rests ajar": ("semantics.rest", "slide", in_joint("slide", "limit", "lower", "-0.1")),
+    "axis three degrees off": (
+        "semantics.tilt", "hinge",
+        in_joint("hinge", "axis", "xyz", "0.05233595624294383 0 -0.9986295347545738"),
+    ),
     "reversed axis": (
         "motion.overlap", "base, drawer", in_joint("slide", "axis", "xyz", "0 1 0"),
     ),
@@ -175,6 +180,23 @@ def test_a_defect_of_a_urdf_is_named(name: str, written: Path, tmp_path: Path) -
     assert (check, part) in {(f.check, f.part) for f in report.findings}, report.findings
 
 
+def untouchable(folder: Path) -> None:
+    """Every geom is of type 0, which is in no other's affinity."""
+    tree = ET.parse(folder / MJCF)
+    for geom in tree.iterfind(".//geom[@class='collision']"):
+        geom.set("contype", "0")
+    tree.write(folder / MJCF)
+
+
+def flag_off(folder: Path) -> None:
+    """The file switches gravity off."""
+    tree = ET.parse(folder / MJCF)
+    option = tree.find("option")
+    assert option is not None
+    ET.SubElement(option, "flag", gravity="disable")
+    tree.write(folder / MJCF)
+
+
 MODELED: dict[str, tuple[str, str, Edit]] = {
     "drag that nothing told": ("dynamics.energy", "object", in_mjcf("option", "viscosity", "5")),
     "stop as soft as rubber": (
@@ -184,6 +206,10 @@ MODELED: dict[str, tuple[str, str, Edit]] = {
         "structure.limit",
         "slide (asset.xml)",
         in_mjcf(".//joint[@name='slide']", "limited", "false"),
+    ),
+    "geoms that meet none": ("structure.link", "drawer", untouchable),
+    "gravity switched off": (
+        "compile.effect", "asset.xml", flag_off,
     ),
     "ball joint": (
         "structure.type", "slide (asset.xml)", in_mjcf(".//joint[@name='slide']", "type", "ball"),
