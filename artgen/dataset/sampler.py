@@ -24,7 +24,7 @@ class ResumableSampler:
 
         for batch in loader:
             step(batch)
-            sampler.advance(global_batch)          # samples of all ranks together
+            sampler.advance(min(global_batch, sampler.left))    # samples of all ranks together
         sampler.next_epoch()
 
     `state_dict()` is plain JSON, equal on all ranks; save it with a checkpoint.
@@ -77,16 +77,21 @@ class ResumableSampler:
         runs = [generator.permutation(blocks[k]) for k in generator.permutation(len(blocks))]
         return np.concatenate(runs)
 
+    @property
+    def left(self) -> int:
+        """Samples of this epoch that no rank has consumed yet."""
+        return self.size - self.consumed
+
     def advance(self, count: int) -> None:
         """Note that `count` more samples were consumed by all ranks together.
 
         Raises:
             UsageError: the epoch has not that many left.
         """
-        if not 0 <= count <= self.size - self.consumed:
+        if not 0 <= count <= self.left:
             raise UsageError(
-                f"{count} samples consumed, but {self.size - self.consumed} of {self.size} are "
-                f"left in epoch {self.epoch}; count each once, and call next_epoch() at the end"
+                f"{count} samples consumed, but {self.left} of {self.size} are left in epoch "
+                f"{self.epoch}; count each once, and call next_epoch() at the end"
             )
         self.consumed += count
 

@@ -177,3 +177,17 @@ class _Loader:
 
     def __call__(self, position: int) -> str:
         return asset_id(self.dataset, position)
+
+
+@given(size=SIZES, world_size=st.integers(1, 4), batch=st.integers(1, 9))
+def test_the_loop_of_the_documentation_ends_with_nothing_left(size, world_size, batch):
+    """Ranks step together; at the end some have a smaller batch, or none."""
+    samplers = ranks(world_size, size=size, seed=2)
+    streams, seen = [iter(sampler) for sampler in samplers], []
+    while samplers[0].left:
+        drawn = [x for stream in streams for x in take(stream, batch)]
+        assert len(drawn) == min(batch * world_size, samplers[0].left)
+        for sampler in samplers:
+            sampler.advance(min(batch * world_size, sampler.left))
+        seen += drawn
+    assert sorted(seen) == list(range(size))
