@@ -19,8 +19,8 @@ DARKEST = 1e-3
 """Least linear color of an absorbing body; black glass would absorb without end."""
 SEVERAL_LAMPS = 2
 """Lamps from which a tree chooses among them: with two, noise falls by a third for a fifth more
-time; with one there is no choice. Without a tree, Cycles chooses by the lamps' order in memory, which
-depends on what the process rendered before."""
+time; with one there is no choice. Without a tree, Cycles chooses by the order of lamps in memory,
+which depends on what the process rendered before."""
 
 
 def needed_transport(

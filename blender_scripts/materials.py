@@ -11,8 +11,8 @@ import bpy
 from artgen.render_job import Absorption, LightRig, Relief, Subsurface, ThinGlass, Transport
 from blender_scripts.lights import surrounding_color
 
-FINEST = 6
-"""Times that a displaced mesh is split in four at most; six make 4096 triangles of one."""
+MOST_TRIANGLES = 1_000_000
+"""Of a displaced mesh; bounds what a job takes of memory and time."""
 
 
 def apply_transport(transport: Transport, rig: LightRig) -> None:
@@ -134,15 +134,16 @@ def make_relief(body: Relief) -> None:
 
 
 def _split_fine(node: bpy.types.Object, edge: float) -> None:
-    """Weld corners that the file holds apart, then split triangles until none is longer than
-    `edge` m, or FINEST times."""
+    """Weld corners that the file holds apart, then split triangles in four until none is longer
+    than `edge` m, or as often as MOST_TRIANGLES allow."""
     weld = node.modifiers.new("weld", "WELD")
     weld.merge_threshold = 1e-6
     corners = [vertex.co for vertex in node.data.vertices]
-    longest = max(
-        (corners[a] - corners[b]).length for a, b in (edge.vertices for edge in node.data.edges)
-    )
-    levels = min(FINEST, max(0, math.ceil(math.log2(longest / edge))))
+    ends = [side.vertices for side in node.data.edges]
+    longest = max((corners[a] - corners[b]).length for a, b in ends)
+    needed = math.ceil(math.log2(longest / edge))
+    allowed = math.floor(math.log(MOST_TRIANGLES / len(node.data.polygons), 4.0))
+    levels = max(0, min(needed, allowed))
     split = node.modifiers.new("split", "SUBSURF")
     split.subdivision_type = "SIMPLE"
     split.levels = split.render_levels = levels
