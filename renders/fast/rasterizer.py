@@ -16,7 +16,7 @@ from artgen.transport import CLEAR
 from renders.fast.filtered import split_sum
 from renders.fast.light import Shine
 from renders.fast.occlusion import Occlusion, sky_factors
-from renders.fast.shaders import DEFINES, MOST_LIGHTS, OPAQUE, PANE, VERTEX
+from renders.fast.shaders import DEFINES, OPAQUE, PANE, VERTEX
 from renders.glb import Appearance, Look, Skin
 
 Box = tuple[int, int, int, int]
@@ -108,9 +108,9 @@ class Programs:
         )
         self.split_sum.repeat_x = self.split_sum.repeat_y = False
 
-    def opaque(self, kinds: Sequence[str]) -> moderngl.Program:
-        """For a surface with images of these kinds."""
-        return self._program(OPAQUE, tuple(DEFINES[kind] for kind in kinds))
+    def opaque(self, kinds: Sequence[str], lights: int) -> moderngl.Program:
+        """For a surface with images of these kinds under so many lights."""
+        return self._program(OPAQUE, (f"LIGHTS {lights}", *(DEFINES[kind] for kind in kinds)))
 
     def pane(self) -> moderngl.Program:
         """For thin glass."""
@@ -140,6 +140,7 @@ class Rasterizer:
         light: Shine,
     ) -> None:
         self._context, self._canvas, self._programs = context, canvas, programs
+        self._lights = len(light.corners)
         self._owned: list[Owned] = []
         self._textures: dict[tuple[str, str], moderngl.Texture] = {}
         self._pieces = [
@@ -238,7 +239,7 @@ class Rasterizer:
     def _piece(self, skin: Skin, surface: SurfaceSpec, look: Look) -> Piece:
         pane = is_pane(surface)
         kinds = [] if pane else [kind for kind in DEFINES if getattr(look, kind) is not None]
-        program = self._programs.pane() if pane else self._programs.opaque(kinds)
+        program = self._programs.pane() if pane else self._programs.opaque(kinds, self._lights)
         for unit, kind in enumerate(kinds, start=1):
             program[f"{kind}_image"] = unit
         rows = np.concatenate([skin.vertices, skin.normals, skin.uv], axis=1).astype("f4")
@@ -348,19 +349,13 @@ def _light(program: moderngl.Program, light: Shine) -> None:
     )
     face = np.cross(high, wide)
     area = np.linalg.norm(face, axis=1, keepdims=True)
-    _write(program, "middles", _padded(light.corners.mean(axis=1), MOST_LIGHTS))
-    _write(program, "faces", _padded(np.concatenate([face / area, area], axis=1), MOST_LIGHTS))
-    _write(program, "radiance", _padded(light.radiance, MOST_LIGHTS))
-    if "lights" in program:
-        program["lights"] = len(light.corners)
+    _write(program, "middles", light.corners.mean(axis=1))
+    _write(program, "faces", np.concatenate([face / area, area], axis=1))
+    _write(program, "radiance", light.radiance)
     _write(program, "open_sky", sky_factors(light).sum(axis=0))
     for name, unit in UNITS.items():
         if name in program:
             program[name] = unit
-
-
-def _padded(rows: Floats, count: int) -> Floats:
-    return np.pad(rows, ((0, count - len(rows)), (0, 0)))
 
 
 def _write(program: moderngl.Program, name: str, values: Floats) -> None:

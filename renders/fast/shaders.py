@@ -7,6 +7,7 @@ direction.
 """
 
 MOST_LIGHTS = 16
+"""Their number is compiled in: a loop that is not unrolled costs as much as all the rest."""
 DEFINES = {"color": "COLOR", "orm": "ORM", "normal": "NORMAL", "emission": "EMISSION"}
 """Kind of image to the name that compiles its lookup in."""
 
@@ -31,14 +32,14 @@ void main() {
 
 LIGHT = """
 #version 330
-#define MOST_LIGHTS 16
 #define TAU 6.28318530718
 uniform vec3 eye;
 uniform vec3 sky[9];
-uniform int lights;
-uniform vec3 middles[MOST_LIGHTS];
-uniform vec4 faces[MOST_LIGHTS];  // where each light faces, and its area
-uniform vec3 radiance[MOST_LIGHTS];
+#if LIGHTS > 0
+uniform vec3 middles[LIGHTS];
+uniform vec4 faces[LIGHTS];  // where each light faces, and its area
+uniform vec3 radiance[LIGHTS];
+#endif
 uniform sampler2DArray mirrored;
 uniform vec4 stage;  // middle of the rig, and the distance of its lights
 uniform sampler3D seen_sky;
@@ -55,6 +56,7 @@ vec3 sky_on(vec3 n) {
         + sky[7] * n.x * n.z + sky[8] * (n.x * n.x - n.y * n.y));
 }
 
+#if LIGHTS > 0
 float form_factor(int light, vec3 n) {
     vec3 toward = middles[light] - place;
     float squared = dot(toward, toward), area = faces[light].w;
@@ -62,6 +64,7 @@ float form_factor(int light, vec3 n) {
     float size = area * max(0.0, -dot(toward, faces[light].xyz)) / (0.5 * TAU * squared + area);
     return size * max(0.0, size + dot(toward, n)) / (size + 1.0);
 }
+#endif
 
 vec4 cell(sampler3D image, vec3 n) {
     vec3 at = (place + n * grid.w - grid.xyz) / (grid.w * vec3(textureSize(image, 0)));
@@ -148,11 +151,13 @@ void main() {
     vec2 split = texture(split_sum, vec2(facing, rough)).rg;
     vec4 sky_seen = cell(seen_sky, n), lights_seen = cell(seen_lights, n);
     vec3 open = sky_on(n), arriving = open * share(sky_seen, n, 2.0);
-    for (int k = 0; k < lights; ++k) {
+#if LIGHTS > 0
+    for (int k = 0; k < LIGHTS; ++k) {
         vec3 from = radiance[k] * form_factor(k, n);
         open += from;
         arriving += k < 4 ? from * lights_seen[k] : from;
     }
+#endif
     // Blocked light bounces until it leaves by the open share: a geometric series, of which half
     // the walls have the surface's own color and half are dark.
     vec3 returned = base * sky_seen.x / (1.0 - 0.5 * base * (1.0 - sky_seen.x));
