@@ -11,9 +11,9 @@ HEAD = """# Which defects are caught
 
 Written by `artgen study defects`. Every kind of defect is planted into copies of good assets, which
 are then judged as a stranger's: without manifest, by the file of the format named. `first check` is
-what reports it first; docs/validation.md explains each. A joint that was left out, so that a part is
-welded shut, cannot be seen in a stranger's file; in our bundles the formats are held against each
-other, which shows it.
+what reports it first; docs/validation.md explains each. A joint that was left out, so that a part
+is welded shut, cannot be seen in a stranger's file; in our bundles the formats are held against
+each other, which shows it.
 """
 RIVALS = """## Beside other checkers
 
