@@ -93,7 +93,8 @@ def test_pictures_are_near_those_of_cycles(
     bundle: Bundle, blender: BlenderWorker, tmp_path: Path
 ) -> None:
     """An open chest with a glass lid: 26 dB and 8 codes where it was written; a light that is
-    missing or doubled is off by 30 codes or more."""
+    missing or doubled is off by 30 codes or more. Of a window 6 px wide half is outline, where 8
+    paths tell coverage to 0.1; what is shifted by a pixel is off by 0.2."""
     plan = planned(bundle, tmp_path, Settings(views=2, states=2, size=64))
     cycles = measured(CyclesBackend(blender), plan, tmp_path)
     fast = measured(FastBackend(), plan, tmp_path)
@@ -104,7 +105,7 @@ def test_pictures_are_near_those_of_cycles(
     for k, shot in enumerate(plan.passes.shots):
         if shot.part != "lid":
             cover = np.abs(cycles.images[k][..., 3] - fast.images[k][..., 3])
-            assert cover.mean() < 0.02
+            assert cover.mean() < 0.05
     assert not difference(fast.images[0], fast.images[0]).any()
 
 
