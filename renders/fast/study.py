@@ -40,6 +40,8 @@ class Backends:
     """Widths of the images, px."""
     views: int = 4
     """Cameras per asset."""
+    accuracy: str = "standard"
+    """Of Cycles."""
     table: Path = Path("docs/studies/backends.csv")
     """Receives a row per asset, size and kind of image."""
     picture: Path = Path("docs/images/fast_backend.png")
@@ -83,7 +85,7 @@ def backends(argv: Sequence[str]) -> int:
         pair = [BACKENDS[name](folder / "blender.log", 1) for name in ("cycles", "fast")]
         for size in (WARM_PX, *sorted(command.sizes)):
             for bundle in bundles:
-                plan = planned(bundle, folder, size=size, views=command.views)
+                plan = _planned(command, bundle, folder, size)
                 cycles, fast = (measured(backend, plan, folder) for backend in pair)
                 pictures[bundle.asset_id] = side_by_side(plan, cycles.images, fast.images)
                 started = time.process_time()
@@ -107,9 +109,9 @@ class Measured:
     cpu_s: float
 
 
-def planned(bundle: Bundle, folder: Path, *, size: int, views: int) -> RenderPlan:
+def _planned(command: Backends, bundle: Bundle, folder: Path, size: int) -> RenderPlan:
     """The same plan for both backends."""
-    settings = Settings(views=views, states=2, size=size)
+    settings = Settings(views=command.views, states=2, size=size, accuracy=command.accuracy)
     stream = Stream(SEED, "study", bundle.asset_id)
     return plan_render(bundle, stream, settings=settings, folder=folder)
 
