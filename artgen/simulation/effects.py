@@ -50,6 +50,8 @@ DISABLE_BITS: Mapping[Effect, int] = {
     Effect.EQUALITY: mujoco.mjtDisableBit.mjDSBL_EQUALITY,
     Effect.SENSOR: mujoco.mjtDisableBit.mjDSBL_SENSOR,
 }
+LOSING = frozenset({Effect.CONTACT, Effect.LIMIT, Effect.FRICTION, Effect.DAMPING, Effect.EQUALITY})
+"""What takes energy, or is too soft a constraint to give all of it back."""
 CONSTRAINTS = frozenset({Effect.CONTACT, Effect.LIMIT, Effect.FRICTION, Effect.EQUALITY})
 """Without any of these the constraint solver has nothing to do."""
 
@@ -64,7 +66,7 @@ class Task:
         velocity: (nv,) rad/s or m/s; None starts at rest.
         driven: joints that the check itself pushes, by number.
         clear: an earlier check has shown that no two parts meet on the way.
-        lossless: the check is about energy, so that losses are off by definition.
+        lossless: the check is about energy, so that losses, stops and ties are off by definition.
     """
 
     name: str
@@ -112,19 +114,24 @@ def needed_effects(model: mujoco.MjModel, task: Task) -> Effects:
     on joints that stand still is not needed.
     """
     loads = _Loads(model, task)
-    return Effects(
-        (
-            _gravity(loads),
-            _contact(model, loads, task),
-            _limit(model, loads),
-            _friction(model, loads, task),
-            _damping(model, loads, task),
-            _spring(model, loads),
-            _actuation(model),
-            _equality(model, loads),
-            Call(Effect.SENSOR, False, "positions are read from the state itself"),
-        )
+    calls = (
+        _gravity(loads),
+        _contact(model, loads, task),
+        _limit(model, loads),
+        _friction(model, loads),
+        _damping(model, loads),
+        _spring(model, loads),
+        _actuation(model),
+        _equality(model, loads),
+        Call(Effect.SENSOR, False, "positions are read from the state itself"),
     )
+    return Effects(tuple(_conserving(call) if task.lossless else call for call in calls))
+
+
+def _conserving(call: Call) -> Call:
+    if call.effect in LOSING:
+        return Call(call.effect, False, "the check is about energy, which it would change")
+    return call
 
 
 @contextmanager
@@ -167,7 +174,8 @@ def _weight(model: mujoco.MjModel, data: mujoco.MjData, pose: Floats) -> Floats:
     data.qpos[:] = pose
     data.qvel[:] = 0.0
     flags = int(model.opt.disableflags)
-    model.opt.disableflags = flags & ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    heavy = flags & ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    model.opt.disableflags = heavy | int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
     try:
         mujoco.mj_fwdPosition(model, data)
         mujoco.mj_fwdVelocity(model, data)
@@ -250,23 +258,22 @@ def _limit(model: mujoco.MjModel, loads: _Loads) -> Call:
     return _acting(Effect.LIMIT, limited & loads.stirring, "may reach its stop", "reaches a stop")
 
 
-def _friction(model: mujoco.MjModel, loads: _Loads, task: Task) -> Call:
-    if task.lossless:
-        return Call(Effect.FRICTION, False, "the check is about energy without losses")
+def _friction(model: mujoco.MjModel, loads: _Loads) -> Call:
     rubbing = (model.dof_frictionloss > 0.0) & loads.stirring
     return _acting(
         Effect.FRICTION, rubbing, "rubs while it moves or is held", "both rubs and moves"
     )
 
 
-def _damping(model: mujoco.MjModel, loads: _Loads, task: Task) -> Call:
-    if task.lossless:
-        return Call(Effect.DAMPING, False, "the check is about energy without losses")
+def _damping(model: mujoco.MjModel, loads: _Loads) -> Call:
     damped = (model.dof_damping != 0.0) & loads.stirring
     return _acting(Effect.DAMPING, damped, "is damped while it moves", "is both damped and moving")
 
 
 def _spring(model: mujoco.MjModel, loads: _Loads) -> Call:
+    """MuJoCo leaves every passive force out with springs and dampers, a medium's drag among them."""
+    if model.opt.density > 0.0 or model.opt.viscosity > 0.0 or model.ngravcomp:
+        return Call(Effect.SPRING, True, "a medium or a counterweight acts with the springs")
     sprung = (model.jnt_stiffness[model.dof_jntid] != 0.0) & loads.stirring
     return _acting(Effect.SPRING, sprung, "works against a spring", "has a spring and moves")
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from artgen.articulation.types import Joint
 from artgen.core.mesh import Floats
+from artgen.simulation.effects import Task, needed_effects, only
 from artgen.validate.bounds import Bound
-from artgen.validate.dynamics import CONTACT
 from artgen.validate.physics import coarse_step, simulating, warnings_of
-from artgen.validate.report import Finding, Skipped
+from artgen.validate.report import Finding, Simulated, Skipped
 from artgen.validate.subject import Subject
 
 CHUNK = 10
@@ -23,34 +23,26 @@ RUN_UP = 0.1
 """Share of its range before its stop from which a joint is thrown against it."""
 FASTEST = 2.0
 """rad/s or m/s; people close doors at half of it."""
-UNDAMPED = (
-    int(mujoco.mjtDisableBit.mjDSBL_FRICTIONLOSS)
-    | int(mujoco.mjtDisableBit.mjDSBL_DAMPER)
-    | int(mujoco.mjtDisableBit.mjDSBL_LIMIT)
-    | int(mujoco.mjtDisableBit.mjDSBL_EQUALITY)
-    | CONTACT
-)
 SWING_STEPS = 80
 STEPS_A_PERIOD = 60.0
 PUSH = 0.5
 """rad/s or m/s that each joint starts a swing with."""
 
 
-def opens(subject: Subject) -> Iterator[Finding | Skipped]:
+def opens(subject: Subject) -> Iterator[Finding | Skipped | Simulated]:
     """From one stop, a force within its effort takes each joint to the other in time."""
     yield from _driven(subject, "dynamics.open", subject.bounds.opened, forward=True)
 
 
-def closes(subject: Subject) -> Iterator[Finding | Skipped]:
+def closes(subject: Subject) -> Iterator[Finding | Skipped | Simulated]:
     """And back."""
     yield from _driven(subject, "dynamics.close", subject.bounds.closed, forward=False)
 
 
 def _driven(
     subject: Subject, check: str, bound: Bound, *, forward: bool
-) -> Iterator[Finding | Skipped]:
-    """All joints driven at once; L4 has shown that they do not meet where they may move, so contact
-    cannot act and is off."""
+) -> Iterator[Finding | Skipped | Simulated]:
+    """All joints driven at once; L4 has shown that each clears the others where it may move."""
     free = [joint for joint in subject.joints if joint.mimic is None]
     for joint in free:
         if math.isinf(joint.effort):
@@ -58,7 +50,11 @@ def _driven(
     driven = [joint for joint in free if not math.isinf(joint.effort)]
     if not driven:
         return
-    share, trouble = travelled(subject.simulated, driven, forward, subject.bounds.drive_time.value)
+    model = subject.simulated
+    effects = needed_effects(model, _task(check, model, driven, forward))
+    yield Simulated(check=check, effects=effects.told)
+    with only(model, effects):
+        share, trouble = travelled(model, driven, forward, subject.bounds.drive_time.value)
     least = bound.value if forward else 1.0 - bound.value
     for joint, value in zip(driven, share.tolist(), strict=True):
         if not value >= least:
@@ -72,6 +68,14 @@ def _driven(
                 f"{subject.bounds.drive_time.value:g} s{trouble}",
                 remedy="lower friction, damping or mass, or raise the effort",
             )
+
+
+def _task(check: str, model: mujoco.MjModel, joints: Sequence[Joint], forward: bool) -> Task:
+    """Joints pushed from one end of their ranges."""
+    own = [int(model.joint(joint.name).id) for joint in joints]
+    start = np.zeros(model.nq)
+    start[own] = _course(joints, forward)[0]
+    return Task(name=check, start=start, driven=frozenset(own), clear=True)
 
 
 def travelled(
@@ -88,7 +92,7 @@ def travelled(
     force = np.array([joint.effort for joint in joints]) * np.sign(span)
     top = np.array([joint.velocity for joint in joints])
     share = np.zeros(len(joints))
-    with simulating(model, off=CONTACT):
+    with simulating(model):
         model.opt.timestep = coarse_step(model)
         for _ in range(math.ceil(seconds / (CHUNK * model.opt.timestep))):
             slow = data.qvel[own] * np.sign(span) < top
@@ -109,12 +113,16 @@ def _course(joints: Sequence[Joint], forward: bool) -> tuple[Floats, Floats]:
     return (lower, upper - lower) if forward else (upper, lower - upper)
 
 
-def stops(subject: Subject) -> Iterator[Finding]:
+def stops(subject: Subject) -> Iterator[Finding | Simulated]:
     """Thrown against its stops, no joint goes far beyond, and none comes out fast."""
     bound, model = subject.bounds.overshoot, subject.simulated
     limited = [joint for joint in subject.joints if joint.limit is not None and not joint.mimic]
+    effects = needed_effects(model, _task("dynamics.stop", model, limited, True))
+    yield Simulated(check="dynamics.stop", effects=effects.told)
     for forward in (True, False):
-        for joint, beyond in zip(limited, overshoot(model, limited, forward), strict=True):
+        with only(model, effects):
+            far = overshoot(model, limited, forward)
+        for joint, beyond in zip(limited, far, strict=True):
             if not beyond <= bound.value:
                 yield Finding(
                     check="dynamics.stop",
@@ -138,7 +146,7 @@ def overshoot(model: mujoco.MjModel, joints: Sequence[Joint], forward: bool) -> 
     data.qpos[own] = stop - way * np.minimum(RUN_UP * np.abs(span), RUN_UP)
     data.qvel[own] = way * np.minimum([joint.velocity for joint in joints], FASTEST)
     beyond = np.zeros(len(joints))
-    with simulating(model, off=CONTACT):
+    with simulating(model):
         model.opt.timestep = coarse_step(model)
         for _ in range(math.ceil(STOP_SECONDS / (CHUNK * model.opt.timestep))):
             mujoco.mj_step(model, data, nstep=CHUNK)
@@ -146,12 +154,19 @@ def overshoot(model: mujoco.MjModel, joints: Sequence[Joint], forward: bool) -> 
     return beyond
 
 
-def conserves(subject: Subject) -> Iterator[Finding]:
+def conserves(subject: Subject) -> Iterator[Finding | Simulated]:
     """Without friction, damping and stops, a swing keeps its energy; what does not is driven."""
     bound, model = subject.bounds.energy_drift, subject.simulated
     if model.nv == 0:
         return
-    drift = energy_drift(model, *(_at_share(subject, model, share) for share in (0.5, 0.0, 1.0)))
+    middle, *ends = (_at_share(subject, model, share) for share in (0.5, 0.0, 1.0))
+    task = Task(
+        name="dynamics.energy", start=middle, velocity=np.full(model.nv, PUSH), lossless=True
+    )
+    effects = needed_effects(model, task)
+    yield Simulated(check=task.name, effects=effects.told)
+    with only(model, effects):
+        drift = energy_drift(model, middle, *ends)
     if not drift <= bound.value:
         yield Finding(
             check="dynamics.energy",
@@ -180,7 +195,7 @@ def energy_drift(model: mujoco.MjModel, start: Floats, *others: Floats) -> float
     gravity does not pull at all.
     """
     data = mujoco.MjData(model)
-    with simulating(model, off=UNDAMPED, on=int(mujoco.mjtEnableBit.mjENBL_ENERGY)):
+    with simulating(model, on=int(mujoco.mjtEnableBit.mjENBL_ENERGY)):
         model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
         model.opt.timestep = min(_fine_step(model, data, q) for q in (start, *others))
         data.qpos[:], data.qvel[:] = start, PUSH

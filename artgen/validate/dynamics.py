@@ -7,13 +7,13 @@ import numpy as np
 
 from artgen.articulation.types import Joint
 from artgen.core.mesh import Floats
+from artgen.simulation.effects import Task, needed_effects, only
 from artgen.validate.bounds import Bounds
 from artgen.validate.bundle_subject import BundleSubject
 from artgen.validate.physics import coarse_step, simulating, warnings_of
-from artgen.validate.report import Finding
+from artgen.validate.report import Finding, Simulated
 from artgen.validate.subject import Subject
 
-CONTACT = int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
 SETTLE_SECONDS = 2.0
 """Long enough for friction creep and for a part that is not held to swing away."""
 HELD: Mapping[str, Sequence[str]] = {"laptop": ("lid",), "dishwasher": ("door",)}
@@ -21,14 +21,16 @@ HELD: Mapping[str, Sequence[str]] = {"laptop": ("lid",), "dishwasher": ("door",)
 HELD_POSES = 21
 
 
-def settles(subject: Subject) -> Iterator[Finding]:
+def settles(subject: Subject) -> Iterator[Finding | Simulated]:
     """Left alone for two seconds, joints stay within the sag and creep of soft constraints."""
     model = subject.simulated
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    # Contact is most of a step's time; where nothing touches at rest, it cannot act there.
-    off = CONTACT if data.ncon == 0 else 0
-    with simulating(model, off=off):
+    # Where nothing touches at rest and all that moves is held, contact cannot act.
+    task = Task(name="dynamics.settle", start=np.array(data.qpos), clear=data.ncon == 0)
+    effects = needed_effects(model, task)
+    yield Simulated(check=task.name, effects=effects.told)
+    with simulating(model), only(model, effects):
         model.opt.timestep = coarse_step(model)
         allowed = drift_bound(model, data, subject.bounds)
         mujoco.mj_step(model, data, nstep=round(SETTLE_SECONDS / model.opt.timestep))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from time import process_time
 from typing import Generic, Protocol, TypeVar
 
-from artgen.validate.report import Finding, Note, Report, Skipped
+from artgen.validate.report import Finding, Note, Report, Simulated, Skipped
 
 
 class Judged(Protocol):
@@ -27,7 +27,7 @@ class Judged(Protocol):
 
 
 S = TypeVar("S", bound=Judged)
-Saying = Finding | Skipped | Note
+Saying = Finding | Skipped | Note | Simulated
 Said = Iterable[Saying]
 
 
@@ -108,6 +108,7 @@ def run_levels(subject: S, levels: Iterable[Level[S]], selection: Selection) -> 
         findings=tuple(item for item in said if isinstance(item, Finding)),
         skipped=tuple(item for item in said if isinstance(item, Skipped)),
         notes=tuple(item for item in said if isinstance(item, Note)),
+        simulated=tuple(item for item in said if isinstance(item, Simulated)),
         judged=tuple(judged),
         seconds=seconds,
     )

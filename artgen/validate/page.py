@@ -97,6 +97,7 @@ def _asset(name: str, judgement: Judgement, left: int) -> Iterator[str]:
     yield "</table>"
     for picture in judgement.pictures[: max(left, 0)]:
         yield _figure(picture, report.findings[picture.number])
+    yield from _simulated(report)
     yield from _skipped(report)
 
 
@@ -126,6 +127,17 @@ def _skipped(report: Report) -> Iterator[str]:
             for reason, names in reasons.items()
         )
         yield f"<details><summary>not checked</summary><table>{''.join(rows)}</table></details>"
+
+
+def _simulated(report: Report) -> Iterator[str]:
+    """Which effects each check had computed, and why."""
+    for item in report.simulated:
+        rows = (
+            f"<tr><td>{escape(effect)}<td>{escape(why)}</tr>"
+            for effect, why in item.effects.items()
+        )
+        yield f"<details><summary>{escape(item.check)}: what was simulated</summary>"
+        yield f"<table>{''.join(rows)}</table></details>"
 
 
 def _valid(reports: Sequence[tuple[str, Report]]) -> Iterator[str]:

@@ -3,11 +3,12 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any, cast
 
 from artgen.articulation.types import State
 from artgen.core.jsonio import plain
 
-SCHEMA = "artgen-report/2"
+SCHEMA = "artgen-report/3"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,10 +62,19 @@ class Note:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Simulated:
+    """What a check had computed in its simulation: effect to `on: why` or `off: why`."""
+
+    check: str
+    effects: Mapping[str, str]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Report:
     """The verdict on one asset; no findings means valid.
 
     Attributes:
+        simulated: the effects that each simulating check called for, with reasons.
         asset: its name.
         format: what it was read from: bundle, urdf, mjcf or usd.
         judged: names of the checks that ran.
@@ -75,6 +85,7 @@ class Report:
     findings: tuple[Finding, ...]
     skipped: tuple[Skipped, ...] = ()
     notes: tuple[Note, ...] = ()
+    simulated: tuple[Simulated, ...] = ()
     format: str = "bundle"
     judged: tuple[str, ...] = ()
     seconds: Mapping[str, float] = field(default_factory=dict, compare=False)
@@ -94,6 +105,7 @@ class Report:
             "judged": list(self.judged),
             "findings": [plain(finding) for finding in self.findings],
             "notes": [plain(note) for note in self.notes],
+            "simulated": [plain(item) for item in self.simulated],
             "skipped": [plain(skipped) for skipped in self.skipped],
         }
 
@@ -106,7 +118,8 @@ def report_from_json(stated: Mapping[str, object]) -> Report:
     """
     if stated["schema"] != SCHEMA:
         raise ValueError(f"schema {stated['schema']!r} instead of {SCHEMA!r}")
-    rows = {key: list(stated[key]) for key in ("findings", "skipped", "notes", "judged")}  # type: ignore[call-overload]
+    lists = ("findings", "skipped", "notes", "simulated", "judged")
+    rows: dict[str, list[Any]] = {key: list(cast(Any, stated[key])) for key in lists}
     return Report(
         asset=str(stated["asset"]),
         format=str(stated["format"]),
@@ -114,4 +127,5 @@ def report_from_json(stated: Mapping[str, object]) -> Report:
         findings=tuple(Finding(**row) for row in rows["findings"]),
         skipped=tuple(Skipped(**row) for row in rows["skipped"]),
         notes=tuple(Note(**row) for row in rows["notes"]),
+        simulated=tuple(Simulated(**row) for row in rows["simulated"]),
     )

@@ -296,7 +296,10 @@ def test_the_sound_bundle_has_no_finding(sound: Path) -> None:
     report = validate_bundle(sound)
     assert [str(finding) for finding in report.findings] == []
     assert report.ok
-    assert [skipped.name for skipped in report.skipped] == ["semantics.band"]
+    assert [skipped.name for skipped in report.skipped] == [
+        "semantics.band",
+        "dynamics.effects",  # proven on one asset in fifty
+    ]
 
 
 @pytest.mark.parametrize("name", UNSIGNED)
