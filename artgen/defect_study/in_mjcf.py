@@ -54,7 +54,8 @@ def removed(path: str) -> Plant:
 
 
 MOVING = "worldbody/body/body"
-JOINT = f"{MOVING}/joint"
+JOINT = f"{MOVING}/joint[@limited='true']"
+HINGE = f"{JOINT}[@type='hinge']"
 
 
 def range_swapped(root: ET.Element) -> None:
@@ -71,9 +72,15 @@ def reversed_axis(root: ET.Element) -> None:
 
 def pivot_moved(root: ET.Element) -> None:
     """The pivot lies 80 mm beside the edge."""
-    element = first(root, JOINT)
+    element = first(root, HINGE)
     x, y, z = (float(word) for word in element.get("pos", "0 0 0").split())
     element.set("pos", f"{x + 0.08!r} {y + 0.08!r} {z!r}")
+
+
+def degrees(root: ET.Element) -> None:
+    """Radians read as degrees."""
+    first(root, HINGE)
+    first(root, "compiler").set("angle", "degree")
 
 
 def mass_grams(root: ET.Element) -> None:
@@ -96,7 +103,7 @@ MJCF_DEFECTS = tuple(
     for name, what, plant in (
         ("range_swapped", "upper before lower", in_tree(range_swapped)),
         ("unlimited", "limits not switched on", put(JOINT, "limited", "false")),
-        ("degrees", "radians read as degrees", put("compiler", "angle", "degree")),
+        ("degrees", "radians read as degrees", in_tree(degrees)),
         ("axis_zero", "an axis of no length", put(JOINT, "axis", "0 0 0")),
         ("axis_nan", "an axis that is not a number", put(JOINT, "axis", "nan 0 1")),
         ("axis_reversed", "the part opens inwards", in_tree(reversed_axis)),

@@ -22,9 +22,10 @@ def in_stage(change: Callable[[Usd.Stage], None]) -> Plant:
 
 
 def joint(stage: Usd.Stage) -> Usd.Prim:
-    """The first joint that moves."""
+    """The first joint that moves between limits."""
     for prim in stage.Traverse():
-        if prim.IsA(UsdPhysics.RevoluteJoint) or prim.IsA(UsdPhysics.PrismaticJoint):
+        moves = prim.IsA(UsdPhysics.RevoluteJoint) or prim.IsA(UsdPhysics.PrismaticJoint)
+        if moves and prim.GetAttribute("physics:upperLimit").HasAuthoredValue():
             return prim
     raise LookupError("no moving joint")
 

@@ -12,6 +12,7 @@ from artgen.defect_study.defect import Plant
 from artgen.export.layout import URDF
 
 Change = Callable[[ET.Element], None]
+LIMITED = ("revolute", "prismatic")
 MOVING = ("revolute", "prismatic", "continuous")
 
 
@@ -37,10 +38,12 @@ def in_text(change: Callable[[str], str]) -> Plant:
 
 
 def joint(root: ET.Element, *kinds: str) -> ET.Element:
-    """The first joint of one of the kinds."""
-    for element in root.iter("joint"):
-        if element.get("type") in (kinds or MOVING):
-            return element
+    """The first joint of one of the kinds; of any kind, one that has limits comes first, as what
+    only spins, like a spray arm, has no rest and no way to be wrong about it."""
+    for wanted in (kinds,) if kinds else (LIMITED, MOVING):
+        for element in root.iter("joint"):
+            if element.get("type") in wanted:
+                return element
     raise LookupError(f"no joint of type {' or '.join(kinds or MOVING)}")
 
 

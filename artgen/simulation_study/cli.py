@@ -7,9 +7,12 @@ from typing import Annotated
 
 import tyro
 
+from artgen.core.errors import UsageError
+from artgen.export.layout import MANIFEST
 from artgen.progress import progress
 from artgen.simulation_study.closed_forms import integrator_rows
 from artgen.simulation_study.collision import fidelity_rows
+from artgen.simulation_study.dropping import dropping
 from artgen.simulation_study.inertia import inertia_rows
 from artgen.simulation_study.measured import Measured
 from artgen.simulation_study.page import page, picture_name
@@ -35,13 +38,21 @@ class Simulate:
 
     out: Annotated[Path, tyro.conf.Positional] = Path("docs/studies")
     """Folder that receives simulate_*.csv, simulate_*.png and simulate.md."""
+    run: Path = Path("out")
+    """Run of `artgen generate` on whose assets effects are left off and dropped."""
 
 
 def simulate(argv: Sequence[str]) -> int:
     """Time step, solver, collision pieces, inertia and sweeps: error against CPU time."""
     command = tyro.cli(Simulate, args=list(argv), prog="artgen study simulate")
+    bundles = sorted(path.parent for path in command.run.glob(f"assets/*/*/{MANIFEST}"))
+    if not bundles:
+        raise UsageError(f"{command.run}: holds no bundle; artgen generate --no-render makes some")
     measured: dict[str, list[Measured]] = {}
-    with progress("studies", len(STUDIES)) as advance:
+    with progress("studies", len(STUDIES) + 1) as advance:
+        saving, dropped = dropping(bundles)
+        write_table(command.out / "simulate_effects.csv", dropped)
+        advance("effects")
         for name, rows in STUDIES.items():
             measured[name] = list(rows())
             write_table(command.out / f"simulate_{name}.csv", measured[name])
@@ -49,7 +60,7 @@ def simulate(argv: Sequence[str]) -> int:
                 _plot(command.out, name, scene, measured[name])
             advance(name)
     path = command.out / "simulate.md"
-    path.write_text(page(measured), encoding="utf-8")
+    path.write_text(page(measured, saving, dropped), encoding="utf-8")
     print(f"page: {path}")  # noqa: T201
     return 0
 

@@ -63,6 +63,7 @@ class Bounds:
     hinge_slack: Bound
     travel: Bound
     closed_play: Bound
+    apart: Bound
     axis_norm_foreign: Bound
     mass_ratio: Bound
     uniform_ratio: Bound

@@ -41,12 +41,14 @@ class Check(Generic[S]):
         needs: words that `lacks` knows, such as "manifest" or "visual meshes"; a check is skipped,
             with the reason, where the source cannot say one of them.
         profile: the least thorough profile that runs it.
+        before: the profile from which on a more thorough check takes its place.
     """
 
     run: Callable[[S], Said]
     finds: tuple[str, ...]
     needs: tuple[str, ...] = ()
     profile: str = "standard"
+    before: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +77,9 @@ class Selection:
             return any(
                 name in check.finds or name in (level, level.split()[0]) for name in self.names
             )
-        return PROFILES.index(check.profile) <= PROFILES.index(self.profile)
+        place = PROFILES.index(self.profile)
+        replaced = bool(check.before) and PROFILES.index(check.before) <= place
+        return PROFILES.index(check.profile) <= place and not replaced
 
 
 def run_levels(subject: S, levels: Iterable[Level[S]], selection: Selection) -> Report:

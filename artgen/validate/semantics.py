@@ -60,6 +60,29 @@ def ground(subject: Subject) -> Iterator[Finding]:
             )
 
 
+def together(subject: Subject) -> Iterator[Finding]:
+    """No part floats far from all others at rest; the diagonal is that of the others together."""
+    allowed = subject.bounds.apart
+    boxes = subject.boxes
+    for name, box in boxes.items():
+        others = [other for rest, other in boxes.items() if rest != name]
+        if not others:
+            return
+        gaps = [np.maximum(box[0] - other[1], other[0] - box[1]).clip(min=0.0) for other in others]
+        nearest = min(float(np.linalg.norm(gap)) for gap in gaps)
+        lower, upper = np.min(others, axis=0)[0], np.max(others, axis=0)[1]
+        share = nearest / float(np.linalg.norm(upper - lower))
+        if not share <= allowed.value:
+            yield _finding(
+                "semantics.apart",
+                name,
+                share,
+                allowed.at_most(),
+                f"{nearest:.3g} m of air lie between it and all other parts at rest",
+                "look for a pivot in another unit, or a mesh that was not moved to its frame",
+            )
+
+
 def object_bounds(subject: Subject) -> Floats:
     """(2, 3) bounds of all visual meshes at rest, m."""
     boxes = np.array(list(subject.boxes.values()))
