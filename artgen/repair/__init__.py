@@ -1,0 +1,1 @@
+"""Mended copies of foreign URDF assets, with a list of every change."""
