@@ -1,5 +1,4 @@
 """artgen makes articulated objects from category rules: built, validated, rendered, packed."""
 
-from importlib.metadata import version
-
-__version__ = version("artgen")
+__version__ = "0.1.0"
+"""Stated here, where pyproject.toml reads it: render farms run this code without installing it."""

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from blender_scripts import bevel, gltf, render
+from blender_scripts.reports import private_stdout
 
 log = logging.getLogger("blender_scripts.worker")
 
@@ -50,14 +51,6 @@ def main(argv: list[str]) -> int:
     report = execute(Path(arguments[0]).read_text(), os.cpu_count() or 1)
     print(json.dumps(report), file=reports, flush=True)
     return 0 if report["ok"] else 1
-
-
-def private_stdout() -> TextIO:
-    """The real stdout for reports alone; everyone else's prints go to stderr from now on."""
-    sys.stdout.flush()
-    reports = os.fdopen(os.dup(1), "w", encoding="utf-8")
-    os.dup2(2, 1)
-    return reports
 
 
 def die_with_parent() -> None:
