@@ -99,43 +99,67 @@ def _told(name: str, found: Surgery) -> Iterator[Change]:
 
 
 def planned(vertices: Floats, faces: Faces) -> Surgery:
-    """What makes a surface sound without moving a vertex or adding a triangle; (V, 3), (F, 3)."""
+    """What makes a surface sound without moving a vertex or adding a triangle; (V, 3), (F, 3).
+
+    Vertices are compared by place, unless the surface is closed by their numbers already. Nothing
+    is left out of a closed surface that would thereby be opened.
+    """
     index = np.unique(vertices + 0.0, axis=0, return_inverse=True)[1].reshape(-1)
     welded = index[faces]
     a, b, c = welded.T
     flat = (a == b) | (b == c) | (c == a)
     solid = np.flatnonzero(~flat)
-    key = np.sort(faces[solid] if _closed(faces[solid]) else welded[solid], axis=1)
+    key = np.sort(_told_apart(faces[solid], welded[solid]), axis=1)
     first = np.zeros(len(faces), bool)
     first[solid[np.unique(key, axis=0, return_index=True)[1]]] = True
-    twice = ~flat & ~first
     live = np.flatnonzero(first)
-    own = faces[live] if _closed(faces[live]) else welded[live]
+    own = _told_apart(faces[live], welded[live])
     turned = np.zeros(len(faces), bool)
-    piece, turned[live] = consistent(own)
-    still_open = not _closed(np.where(turned[live, None], own[:, ::-1], own))
-    cavity = False
-    if not still_open:
-        outward, cavity = _outward(vertices[faces[live]], turned[live], piece)
-        turned[live] = outward
-    else:
-        turned[:] = False
+    if not _closed(own):
+        turned[live] = disagreeing(own)
+    upright = np.where(turned[live, None], own[:, ::-1], own)
+    if not _closed(upright):
+        broken = _closed(welded[solid])
+        kept = np.zeros(len(faces), bool)
+        return _surgery(flat=flat, twice=kept if broken else ~flat & ~first, turned=kept, open=True)
+    turned[live], cavity = _outward(vertices[faces[live]], turned[live], _pieces(upright))
+    return _surgery(flat=flat, twice=~flat & ~first, turned=turned, cavity=cavity)
+
+
+def _surgery(
+    *, flat: Mask, twice: Mask, turned: Mask, open: bool = False, cavity: bool = False
+) -> Surgery:
     return Surgery(
         dropped=flat | twice,
         turned=turned,
         twice=int(twice.sum()),
         flat=int(flat.sum()),
-        open=still_open,
+        open=open,
         cavity=cavity,
     )
+
+
+def _told_apart(faces: Faces, welded: Faces) -> Faces:
+    """The triangles by the numbers of the file if that closes them, so that bodies that touch stay
+    apart; else by welded vertices."""
+    return faces if _closed(faces) else welded
+
+
+def _pieces(faces: Faces) -> NDArray[np.intp]:
+    """(F,) number of the connected piece of each triangle."""
+    ends = np.concatenate([faces[:, :2], faces[:, 1:]]).T
+    shape = (int(faces.max()) + 1,) * 2
+    graph = coo_array((np.ones(ends.shape[1], bool), tuple(ends)), shape=shape)
+    label = np.asarray(connected_components(graph, directed=False)[1], np.intp)
+    return np.asarray(label[faces[:, 0]])
 
 
 def _closed(faces: Faces) -> bool:
     return bool(len(faces)) and closed(faces)  # type: ignore[arg-type]
 
 
-def consistent(faces: Faces) -> tuple[NDArray[np.intp], Mask]:
-    """(F,) the connected piece of each triangle, and whether to turn it so that neighbors agree.
+def disagreeing(faces: Faces) -> Mask:
+    """(F,) whether to turn each triangle so that neighbors agree.
 
     Each triangle stands in a graph twice, as it is and turned; an edge of two triangles joins the
     copies that agree. A triangle is turned where that copy lies in the piece's lower component.
@@ -154,8 +178,7 @@ def consistent(faces: Faces) -> tuple[NDArray[np.intp], Mask]:
     columns = np.concatenate([owner[two] + shift, owner[two] + count - shift])
     graph = coo_array((np.ones(len(rows), bool), (rows, columns)), shape=(2 * count,) * 2)
     label = connected_components(graph, directed=False)[1]
-    piece = np.minimum(label[:count], label[count:])
-    return piece, label[:count] > label[count:]
+    return np.asarray(label[:count] > label[count:])
 
 
 def _outward(triangles: Floats, turned: Mask, piece: NDArray[np.intp]) -> tuple[Mask, bool]:

@@ -16,7 +16,13 @@ import trimesh
 from artgen.cli import main
 from artgen.defect_study.in_meshes import MESH_DEFECTS
 from artgen.defect_study.in_urdf import URDF_DEFECTS
-from artgen.defect_study.urdf_edits import in_tree, on_joint, scaled, without_limits
+from artgen.defect_study.urdf_edits import (
+    collision_boxes,
+    in_tree,
+    on_joint,
+    scaled,
+    without_limits,
+)
 from artgen.export.layout import URDF
 from artgen.geometry.measure import moments
 from artgen.geometry.solid import prism
@@ -228,6 +234,15 @@ def test_without_coacd_collision_is_left_and_the_command_says_so(
     assert said["changes"] == []
     assert [left["subject"] for left in said["left"]] == ["door"]
     assert "pip install 'artgen[qa]'" in said["left"][0]["why"]
+
+
+def test_pieces_that_meet_where_the_meshes_do_not_are_replaced(folder: Path) -> None:
+    """3 mm of padding around boards that clear each other by 2: within what pieces may stick out,
+    but the door touches the drawer."""
+    collision_boxes(lambda center, size: (center, size + 0.006))(folder)
+    said = mended(folder, 0)["changes"]
+    assert {change["what"] for change in said} == {"collision"}
+    assert all("where the meshes of" in change["why"] for change in said)
 
 
 def test_pieces_of_another_scale_are_replaced_by_those_of_the_mesh(folder: Path) -> None:
