@@ -103,11 +103,22 @@ class ExrImages(Sequence[Singles]):
         return image
 
 
-BACKENDS: Mapping[str, Callable[[Path, int], Backend]] = {
-    CYCLES: lambda log, threads: CyclesBackend(BlenderWorker(log, threads=threads)),
-    "fast": lambda _, threads: FastBackend(threads=threads),
-}
-"""By `Settings.backend`: from a log file and a number of threads to a backend of this process."""
+def cycles_backend(log: Path, threads: int) -> Backend:
+    """Cycles in a process that is started when first needed."""
+    return CyclesBackend(BlenderWorker(log, threads=threads))
+
+
+def fast_backend(_: Path, threads: int) -> Backend:
+    """The rasterizer, which logs nothing."""
+    return FastBackend(threads=threads)
+
+
+MakeBackend = Callable[[Path, int], Backend]
+"""From a log file and a number of threads to a backend of this process; a function of a module, so
+that other processes can be told of it."""
+
+BACKENDS: Mapping[str, MakeBackend] = {CYCLES: cycles_backend, "fast": fast_backend}
+"""By `Settings.backend`."""
 
 CHECKS: Mapping[str, Callable[[], None]] = {CYCLES: check_libraries, "fast": check_rasterizer}
 """By `Settings.backend`: raises UsageError where this machine lacks what the backend needs."""

@@ -3,8 +3,7 @@
 import logging
 import os
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Literal
@@ -13,17 +12,20 @@ import tyro
 from rich.console import Console
 
 from artgen.core.errors import UsageError
-from artgen.core.jsonio import write_json
-from artgen.dataset.listing import BUNDLES
 from artgen.progress import progress
-from artgen.run_folder import RunFolder, locked, opened, run_log
+from artgen.run_folder import RunFolder, run_log
 from renders.accuracy import quality
-from renders.backends import CHECKS
+from renders.backends import BACKENDS, CHECKS, MakeBackend
 from renders.contact_sheet import write_contact_sheet
 from renders.report import print_report, render_report, write_report
 from renders.run import Rendered, RenderTask, is_staged, planned_tasks, run_tasks
 from renders.settings import PRESETS, Settings, checked
-from renders.sources import Found, found_bundles, rendering_folder
+from renders.sources import (
+    found_bundles,
+    opened_rendering,
+    rendering_folder,
+    write_sources,
+)
 
 Preset = Literal["multiview", "monocular", "trajectory"]
 SHEET = 96
@@ -69,7 +71,7 @@ def render(argv: Sequence[str]) -> int:
     """Render bundles in several views and states, with labels."""
     words = list(argv)
     command = tyro.cli(
-        Render, args=words, prog="artgen render", default=Render(settings=_preset(words))
+        Render, args=words, prog="artgen render", default=Render(settings=asked_preset(words))
     )
     settings = checked(command.settings)
     quality(settings.accuracy, settings.size)
@@ -78,19 +80,32 @@ def render(argv: Sequence[str]) -> int:
     CHECKS[settings.backend]()
     found = found_bundles(command.source)
     root = rendering_folder(command.source, out=command.out, name=command.name)
-    with _rendering(root, command) as folder:
+    with opened_rendering(root, command.source, seed=command.seed) as folder:
         tasks, refused = planned_tasks(folder, found, settings, command.seed)
-        _write_sources(folder, command.source, found)
-        failed = [*refused, *render_all(folder, tasks, workers=command.workers)]
-        if staged := [task.sample for task in tasks if is_staged(task)]:
-            write_contact_sheet(folder.contact_sheet, staged[:SHEET])
-    print(f"{len(staged)} of {len(found)} assets rendered: {root / 'samples'}")  # noqa: T201
+        write_sources(folder, command.source, found)
+        backend = BACKENDS[settings.backend]
+        failed = [*refused, *render_all(folder, tasks, workers=command.workers, backend=backend)]
+        staged = shown(folder, tasks)
+    print(f"{staged} of {len(found)} assets rendered: {root / 'samples'}")  # noqa: T201
+    return tell_failed(failed)
+
+
+def shown(folder: RunFolder, tasks: Sequence[RenderTask]) -> int:
+    """How many samples are staged; the contact sheet shows them."""
+    staged = [task.sample for task in tasks if is_staged(task)]
+    if staged:
+        write_contact_sheet(folder.contact_sheet, staged[:SHEET])
+    return len(staged)
+
+
+def tell_failed(failed: Sequence[Rendered]) -> int:
+    """One line for each; the exit code."""
     for outcome in sorted(failed, key=lambda outcome: outcome.asset_id):
         print(f"failed {outcome.asset_id}: {_line(outcome.message)}")  # noqa: T201
     return 1 if failed else 0
 
 
-def _preset(words: Sequence[str]) -> Settings:
+def asked_preset(words: Sequence[str]) -> Settings:
     """The preset that the words name; a name that does not exist is told by the parser."""
     asked = "multiview"
     for word, following in zip(words, [*words[1:], ""], strict=True):
@@ -101,34 +116,9 @@ def _preset(words: Sequence[str]) -> Settings:
     return PRESETS.get(asked, Settings())
 
 
-@contextmanager
-def _rendering(root: Path, command: Render) -> Iterator[RunFolder]:
-    """The folder of the rendering, locked: a run as it is, any other one created or recognized."""
-    if root.resolve() == command.source.resolve():
-        with locked(root):
-            yield RunFolder(root)
-    else:
-        with opened(root, seed=command.seed) as folder:
-            yield folder
-
-
-def _write_sources(folder: RunFolder, source: Path, found: Sequence[Found]) -> None:
-    """bundles.json of a rendering that lies apart from its bundles; `artgen shard` reads it."""
-    if folder.root.resolve() == source.resolve():
-        return
-    root = folder.root.resolve()
-    known = {
-        bundle.asset_id: {
-            "bundle": Path(os.path.relpath(bundle.folder.resolve(), root)).as_posix(),
-            "category": bundle.category,
-            "sample": (Path("samples") / bundle.sample).as_posix(),
-        }
-        for bundle in found
-    }
-    write_json(folder.root / BUNDLES, known)
-
-
-def render_all(folder: RunFolder, tasks: Sequence[RenderTask], *, workers: int) -> list[Rendered]:
+def render_all(
+    folder: RunFolder, tasks: Sequence[RenderTask], *, workers: int, backend: MakeBackend
+) -> list[Rendered]:
     """Render what is missing; the failures. One line per asset and stage in run.log, a report in
     render_report.json."""
     missing = [task for task in tasks if not is_staged(task)]
@@ -137,7 +127,7 @@ def render_all(folder: RunFolder, tasks: Sequence[RenderTask], *, workers: int) 
     record, outcomes = run_log(folder), []
     started = time.perf_counter()
     with progress("renders", len(missing)) as advance:
-        for outcome in run_tasks(folder, missing, workers=workers):
+        for outcome in run_tasks(folder, missing, workers=workers, backend=backend):
             _write_down(record, outcome)
             outcomes.append(outcome)
             advance(f"{outcome.asset_id} {'failed' if outcome.message else 'rendered'}")

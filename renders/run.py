@@ -20,7 +20,7 @@ from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
 from renders.accuracy import quality
 from renders.asset import Account, render_asset
-from renders.backends import BACKENDS, TIMEOUT_PER_IMAGE_S, TIMEOUT_PER_PATH_S, Backend
+from renders.backends import TIMEOUT_PER_IMAGE_S, TIMEOUT_PER_PATH_S, Backend, MakeBackend
 from renders.settings import Settings
 from renders.sources import SAFE, Found
 
@@ -61,6 +61,13 @@ def planned_tasks(
     """
     samples = folder.root / "samples"
     _remember(samples / "settings.json", settings, seed)
+    return unique_tasks(samples, found, settings, seed)
+
+
+def unique_tasks(
+    samples: Path, found: Sequence[Found], settings: Settings, seed: int
+) -> tuple[list[RenderTask], list[Rendered]]:
+    """One task for every bundle, and those that cannot be told apart or named."""
     times = Counter(bundle.asset_id for bundle in found)
     tasks, refused = [], []
     for bundle in found:
@@ -103,7 +110,7 @@ def is_staged(task: RenderTask) -> bool:
 
 
 def run_tasks(
-    folder: RunFolder, tasks: Sequence[RenderTask], *, workers: int
+    folder: RunFolder, tasks: Sequence[RenderTask], *, workers: int, backend: MakeBackend
 ) -> Iterator[Rendered]:
     """Outcomes as they come; cores beyond the number of processes become render threads."""
     shutil.rmtree(scratch(folder), ignore_errors=True)  # of a run that was killed
@@ -114,7 +121,7 @@ def run_tasks(
         _task_in_worker,
         workers=processes,
         initializer=_open_worker,
-        initargs=(folder, settings.backend, max(1, workers // processes)),
+        initargs=(folder, backend, max(1, workers // processes)),
         timeout_s=_asset_timeout(settings),
         lost=lambda task, cause: Rendered(asset_id=task.asset_id, message=cause),
     )
@@ -168,10 +175,10 @@ _worker: tuple[Backend, Path] | None = None
 """Of this process, with its scratch folder; set once by the pool's initializer."""
 
 
-def _open_worker(folder: RunFolder, backend: str, threads: int) -> None:
+def _open_worker(folder: RunFolder, backend: MakeBackend, threads: int) -> None:
     global _worker
     log_file = folder.logs / f"blender-render-{os.getpid()}.log"
-    _worker = BACKENDS[backend](log_file, threads), scratch(folder)
+    _worker = backend(log_file, threads), scratch(folder)
 
 
 def _task_in_worker(task: RenderTask) -> Rendered:
@@ -189,14 +196,13 @@ def _task_in_worker(task: RenderTask) -> Rendered:
             backend=backend,
         )
     except Exception as error:  # One asset must not end a run of thousands, whatever is wrong.
-        if not isinstance(error, ArtgenError | OSError | MemoryError):
-            log.exception("%s", task.asset_id)
-        return Rendered(asset_id=task.asset_id, message=_told(error))
+        return Rendered(asset_id=task.asset_id, message=told(error))
     return Rendered(asset_id=task.asset_id, account=account)
 
 
-def _told(error: Exception) -> str:
-    """In one line, but for the log of Blender that a WorkerError quotes."""
+def told(error: Exception) -> str:
+    """A fault of one asset in one line, but for the log of Blender that a WorkerError quotes; of
+    one that is ours the traceback is logged."""
     if isinstance(error, OSError) and error.errno in FULL_DISK:
         place = error.filename or "the output folder"
         return f"{place}: no space left; free some, then run the same command"
@@ -204,6 +210,7 @@ def _told(error: Exception) -> str:
         return f"out of memory ({error}); ask for fewer --views or --states, or a smaller --size"
     if isinstance(error, ArtgenError | OSError):
         return str(error)
+    log.error("unexpected fault", exc_info=error)
     place = traceback.extract_tb(error.__traceback__)[-1]
     cause = " ".join(repr(error).split())
     return f"unexpected {cause} ({Path(place.filename).name}:{place.lineno}); please report it"

@@ -3,11 +3,16 @@
 import json
 import os
 import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from artgen.core.errors import UsageError
+from artgen.core.jsonio import write_json
+from artgen.dataset.listing import BUNDLES
 from artgen.export.layout import MANIFEST
+from artgen.run_folder import RunFolder, locked, opened
 
 RUN = "run.json"
 SAFE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
@@ -92,3 +97,30 @@ def rendering_folder(source: Path, *, out: Path | None, name: str | None) -> Pat
         if (place / MANIFEST).is_file():
             raise UsageError(f"{root}: lies inside the bundle {place}; choose another --out")
     return root
+
+
+@contextmanager
+def opened_rendering(root: Path, source: Path, *, seed: int) -> Iterator[RunFolder]:
+    """The folder of the rendering, locked: a run as it is, any other one created or recognized."""
+    if root.resolve() == source.resolve():
+        with locked(root):
+            yield RunFolder(root)
+    else:
+        with opened(root, seed=seed) as folder:
+            yield folder
+
+
+def write_sources(folder: RunFolder, source: Path, found: Sequence[Found]) -> None:
+    """bundles.json of a rendering that lies apart from its bundles; `artgen shard` reads it."""
+    if folder.root.resolve() == source.resolve():
+        return
+    root = folder.root.resolve()
+    known = {
+        bundle.asset_id: {
+            "bundle": Path(os.path.relpath(bundle.folder.resolve(), root)).as_posix(),
+            "category": bundle.category,
+            "sample": (Path("samples") / bundle.sample).as_posix(),
+        }
+        for bundle in found
+    }
+    write_json(folder.root / BUNDLES, known)
