@@ -15,6 +15,9 @@ from renders.fast.filtered import directions, solid_angles
 HEIGHT = 128
 """Rows of a map: 1.4 degrees a pixel, enough for the edges of softboxes and a spread-out sun."""
 
+NO_DATE = "2000:01:01 00:00:00"
+"""Else the file would state the time of writing, and equal maps would be different bytes."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Written:
@@ -75,8 +78,10 @@ def _color(values: Floats) -> Color:
 
 def _write(path: Path, pixels: np.ndarray[tuple[int, ...], np.dtype[np.float32]]) -> None:
     height, width, _ = pixels.shape
+    spec = oiio.ImageSpec(width, height, 3, "float")
+    spec.attribute("DateTime", NO_DATE)
     output = oiio.ImageOutput.create(str(path))
-    if output is None or not output.open(str(path), oiio.ImageSpec(width, height, 3, "float")):
+    if output is None or not output.open(str(path), spec):
         raise RenderError(f"{path}: cannot be written ({oiio.geterror()})")
     try:
         if not output.write_image(pixels):
