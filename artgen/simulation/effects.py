@@ -174,14 +174,16 @@ def _weight(model: mujoco.MjModel, data: mujoco.MjData, pose: Floats) -> Floats:
     data.qpos[:] = pose
     data.qvel[:] = 0.0
     flags = int(model.opt.disableflags)
-    heavy = flags & ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
-    model.opt.disableflags = heavy | int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
+    model.opt.disableflags = flags & ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    force = np.zeros(model.nv)
     try:
-        mujoco.mj_fwdPosition(model, data)
-        mujoco.mj_fwdVelocity(model, data)
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_comVel(model, data)
+        mujoco.mj_rne(model, data, 0, force)
     finally:
         model.opt.disableflags = flags
-    return np.array(data.qfrc_bias)
+    return force
 
 
 def _poses(model: mujoco.MjModel, start: Floats) -> list[Floats]:
