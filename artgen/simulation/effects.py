@@ -273,7 +273,7 @@ def _damping(model: mujoco.MjModel, loads: _Loads) -> Call:
 
 
 def _spring(model: mujoco.MjModel, loads: _Loads) -> Call:
-    """MuJoCo leaves every passive force out with springs and dampers, a medium's drag among them."""
+    """MuJoCo leaves out every passive force with springs and dampers, a medium's drag too."""
     if model.opt.density > 0.0 or model.opt.viscosity > 0.0 or model.ngravcomp:
         return Call(Effect.SPRING, True, "a medium or a counterweight acts with the springs")
     sprung = (model.jnt_stiffness[model.dof_jntid] != 0.0) & loads.stirring
