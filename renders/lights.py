@@ -104,7 +104,8 @@ MAPS: Mapping[str, Callable[[Draw], tuple[str, Floats]]] = {
 
 def area_rig(stream: Stream, *, center: Floats, radius: float) -> LightRig:
     """Two to four softboxes of any size in a dim room, one of them before the object; harder
-    shadows than the studio's. A white wall that faces the strongest shows 0.75 to 1."""
+    shadows than the studio's. The brightest upright or level white wall shows 0.63 to 1.6, 1.03 in
+    the median (300 seeds)."""
     rng = stream.generator()
 
     def draw(low: float, high: float) -> float:
@@ -127,7 +128,8 @@ def area_rig(stream: Stream, *, center: Floats, radius: float) -> LightRig:
 
 def studio_rig(stream: Stream, *, center: Floats, radius: float) -> LightRig:
     """Key from one side, weaker and lower fill from the other, which reaches into open fronts, rim
-    from behind; a white wall that faces the key shows 0.8 to 1.1."""
+    from behind. The brightest upright or level white wall shows 0.81 to 1.45, 1.12 in the median
+    (300 seeds)."""
     rng = stream.generator()
     side = -1.0 if rng.random() < 0.5 else 1.0
 
