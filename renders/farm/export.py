@@ -1,6 +1,8 @@
 """Job files of render managers, from templates; frame k is item k of the manifest everywhere."""
 
 import json
+import os
+import re
 import shlex
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -55,8 +57,8 @@ class JobFile:
 
     @property
     def name(self) -> str:
-        """Of the job: the folder that holds the manifest."""
-        return f"artgen-{self.manifest.absolute().parent.name}"
+        """Of the job: the folder that holds the manifest, in letters that every manager takes."""
+        return f"artgen-{re.sub(r'[^A-Za-z0-9_-]+', '_', self.manifest.absolute().parent.name)}"
 
 
 class _Slots(Template):
@@ -65,8 +67,8 @@ class _Slots(Template):
     delimiter = "@"
 
 
-Fill = Callable[[JobFile, int], Mapping[str, str]]
-"""From a job and its number of items to the text of each slot."""
+Fill = Callable[[JobFile, int, Path], Mapping[str, str]]
+"""From a job, its number of items and the file to write to the text of each slot."""
 
 
 def write_job(kind: str, job: JobFile, out: Path) -> list[Path]:
@@ -80,12 +82,12 @@ def write_job(kind: str, job: JobFile, out: Path) -> list[Path]:
     for template, suffix, fill in KINDS[kind]:
         text = (TEMPLATES / template).read_text(encoding="utf-8")
         path = out.with_name(f"{out.stem}{suffix}{out.suffix}") if suffix else out
-        write_bytes(path, _Slots(text).substitute(fill(job, items)).encode())
+        write_bytes(path, _Slots(text).substitute(fill(job, items, out)).encode())
         written.append(path)
     return written
 
 
-def _python(job: JobFile, items: int) -> dict[str, str]:
+def _python(job: JobFile, items: int, _: Path) -> dict[str, str]:
     return {
         "name": repr(job.name),
         "command": repr(job.command),
@@ -94,7 +96,7 @@ def _python(job: JobFile, items: int) -> dict[str, str]:
     }
 
 
-def _bash(job: JobFile, items: int) -> dict[str, str]:
+def _bash(job: JobFile, items: int, _: Path) -> dict[str, str]:
     return {
         "name": shlex.quote(job.name),
         "command": shlex.join(job.command),
@@ -103,7 +105,7 @@ def _bash(job: JobFile, items: int) -> dict[str, str]:
     }
 
 
-def _json(job: JobFile, items: int) -> dict[str, str]:
+def _json(job: JobFile, items: int, _: Path) -> dict[str, str]:
     """JSON is JavaScript, and YAML, as it stands."""
     return {
         "name": json.dumps(job.name),
@@ -115,17 +117,23 @@ def _json(job: JobFile, items: int) -> dict[str, str]:
     }
 
 
-def _openjd(job: JobFile, items: int) -> dict[str, str]:
-    place = job.command.index(job.place)
-    template = [*job.command[1:place], "{{Param.Manifest}}", *job.command[place + 1 :]]
-    return {**_json(job, items), "manifest": json.dumps(job.place), "arguments": _listed(template)}
+def _openjd(job: JobFile, items: int, out: Path) -> dict[str, str]:
+    """The folder is a parameter, so that it can be mapped or uploaded; its default must be relative
+    to the template."""
+    folder, manifest = os.path.split(job.place)
+    words = [f"{{{{Param.Farm}}}}/{manifest}" if w == job.place else w for w in job.command[1:]]
+    return {
+        **_json(job, items, out),
+        "folder": json.dumps(Path(os.path.relpath(folder, out.absolute().parent)).as_posix()),
+        "arguments": _listed(words),
+    }
 
 
 def _listed(words: Sequence[str]) -> str:
     return "\n".join(f"            - {json.dumps(word)}" for word in words)
 
 
-def _deadline(job: JobFile, items: int) -> dict[str, str]:
+def _deadline(job: JobFile, items: int, _: Path) -> dict[str, str]:
     """Deadline splits arguments at spaces, but for those in double quotes."""
     return {
         "name": job.name,
