@@ -62,12 +62,13 @@ class Plan:
 class Collect:
     """Make samples of rendered items, byte for byte those of `artgen render` with these settings.
 
-    The bundles must lie where they were planned from. Items that are missing, failed or damaged are
-    named; render them and collect again.
+    Items that are missing, failed or damaged are named; render them and collect again.
     """
 
     farm: Annotated[Path, tyro.conf.arg(metavar="FARM"), tyro.conf.Positional]
     """What `artgen farm plan` wrote."""
+    source: Path | None = None
+    """Where the bundles lie; by default where they were planned from, seen from FARM."""
     images: Path | None = None
     """What render_shard.py was given as --out; by default FARM/items."""
     out: Path | None = None
@@ -133,13 +134,14 @@ def _collect(words: list[str]) -> int:
     command = tyro.cli(Collect, args=words, prog="artgen farm collect")
     _check_workers(command.workers)
     plan = read_farm(command.farm)
+    source = command.source or plan.source
     images = command.images or command.farm / ITEMS
     items = returned(command.farm, images)
-    found = [bundle for bundle in found_bundles(plan.source) if bundle.asset_id in items]
-    root = rendering_folder(plan.source, out=command.out, name=command.name)
-    with opened_rendering(root, plan.source, seed=plan.seed) as folder:
+    found = [bundle for bundle in found_bundles(source) if bundle.asset_id in items]
+    root = rendering_folder(source, out=command.out, name=command.name)
+    with opened_rendering(root, source, seed=plan.seed) as folder:
         tasks, failed = planned_tasks(folder, found, plan.settings, plan.seed)
-        write_sources(folder, plan.source, found)
+        write_sources(folder, source, found)
         ready, lacking = _sorted(tasks, {name: item.fault for name, item in items.items()})
         digests = {name: item.digest for name, item in items.items()}
         backend = partial(farm_backend, images.resolve(), digests)
@@ -171,7 +173,7 @@ def _sorted(
 
 def _gone(items: Mapping[str, object], *, found_ids: set[str]) -> list[Rendered]:
     return [
-        Rendered(asset_id=name, message="its bundle is not where it was planned from")
+        Rendered(asset_id=name, message="its bundle is gone; name its folder by --source")
         for name in items
         if name not in found_ids
     ]

@@ -43,13 +43,12 @@ def write_farm(root: Path, farm: Farm) -> None:
     source = Path(os.path.relpath(farm.source.resolve(), root.resolve()))
     stated = plain({**vars(farm), "source": source, "schema": SCHEMA})
     if (root / RECORD).exists():
-        if _stated(root) != stated:
+        if {**_stated(root), "source": stated["source"]} != stated:
             raise UsageError(
-                f"{root}: was planned from another folder, or with other settings or seed (see "
-                f"{RECORD}); choose another --out"
+                f"{root}: was planned with other settings or another seed (see {RECORD}); choose "
+                "another --out"
             )
-        return
-    if root.exists() and any(root.iterdir()):
+    elif root.exists() and any(root.iterdir()):
         raise UsageError(f"{root}: holds files that are no plan; choose another --out")
     write_json(root / RECORD, stated)
 
