@@ -3,6 +3,7 @@
 import errno
 import logging
 import os
+import select
 import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import EntryPoint, entry_points
@@ -67,14 +68,28 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"artgen: {_explained(error)}", file=sys.stderr)  # noqa: T201
         return 2
     except KeyboardInterrupt:
-        print(  # noqa: T201
-            "artgen: interrupted; what was finished is kept, the same command resumes",
-            file=sys.stderr,
-        )
-        return 130
+        return _interrupted()
     except BrokenPipeError:
+        if not _nobody_reads():
+            return _interrupted()  # Ctrl-C reached a process that was just starting before us.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+
+
+def _interrupted() -> int:
+    print(  # noqa: T201
+        "artgen: interrupted; what was finished is kept, the same command resumes",
+        file=sys.stderr,
+    )
+    return 130
+
+
+def _nobody_reads() -> bool:
+    """Whether the reader of our output is gone, as after `| head`."""
+    poller = select.poll()
+    poller.register(sys.stdout.fileno(), 0)
+    gone = select.POLLERR | select.POLLHUP
+    return any(event & gone for _, event in poller.poll(0))
 
 
 def _dispatched(words: Sequence[str]) -> int:
