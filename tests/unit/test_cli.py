@@ -88,12 +88,23 @@ def test_a_fault_of_ours_is_not_hidden(monkeypatch) -> None:
 def test_ctrl_c_ends_a_run_with_130_and_leaves_nothing_half_made(tmp_path: Path) -> None:
     out = tmp_path / "out"
     running = subprocess.Popen(
-        [sys.executable, "-m", "artgen", "generate", "--count", "3", "--out", str(out)],
+        [
+            sys.executable,
+            "-m",
+            "artgen",
+            "generate",
+            "--count",
+            "3",
+            "--workers",
+            "1",
+            "--out",
+            str(out),
+        ],
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
     )
-    while not (out / "logs").exists() and running.poll() is None:
+    while not list(out.glob("logs/blender-*")) and running.poll() is None:  # at work
         time.sleep(0.05)
     os.killpg(running.pid, signal.SIGINT)
     _, said = running.communicate(timeout=60)
