@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -103,6 +104,8 @@ def test_ctrl_c_ends_a_run_with_130_and_leaves_nothing_half_made(tmp_path: Path)
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        # A background job of a script inherits deafness to Ctrl-C, as under nohup.
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
     )
     while not list(out.glob("logs/blender-*")) and running.poll() is None:  # at work
         time.sleep(0.05)
