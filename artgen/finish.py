@@ -65,6 +65,7 @@ def finish(
             collision=_collision(part),
             mass=_weighed(part, bodies),
             densities=tuple(body.density for body in part.bodies),
+            grips=part.grips,
         )
         for part, bodies, mesh, uv in zip(settled, meshes, joined, atlas, strict=True)
     )
@@ -89,7 +90,7 @@ def settle_overlaps(part: DraftPart) -> DraftPart:
         )
         later = [part.bodies[k + 1 + j] for j in np.flatnonzero((depth > OVERLAP).all(axis=1))]
         bodies.append(_displaced(part, body, later))
-    return DraftPart(name=part.name, label=part.label, bodies=tuple(bodies))
+    return dataclasses.replace(part, bodies=tuple(bodies))
 
 
 def _displaced(part: DraftPart, body: Body, later: Sequence[Body]) -> Body:

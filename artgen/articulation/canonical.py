@@ -92,10 +92,16 @@ def moved_joint(joint: Joint, shift: Floats) -> Joint:
 
 
 def moved_part(part: DraftPart, shift: Floats) -> DraftPart:
-    """The part with every solid, collision piece and decal moved."""
+    """The part with every solid, collision piece, decal and grip moved."""
     if not shift.any():
         return part
-    return dataclasses.replace(part, bodies=tuple(_moved_body(b, shift) for b in part.bodies))
+    return dataclasses.replace(
+        part,
+        bodies=tuple(_moved_body(b, shift) for b in part.bodies),
+        grips=tuple(
+            dataclasses.replace(g, position=_vector(np.add(g.position, shift))) for g in part.grips
+        ),
+    )
 
 
 def _moved_body(body: Body, shift: Floats) -> Body:

@@ -59,13 +59,42 @@ class Body:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Grip:
+    """Where a hand or a gripper takes hold of a part; a frame in the object frame at rest.
+
+    Attributes:
+        name: unique in the object, e.g. `door_handle`.
+        kind: what is gripped: a handle, knob, button, lever, edge or rim.
+        position: the middle of what the fingers close around or press, m.
+        outward: unit vector from the part towards the approaching hand.
+        pull: unit vector along which the hand moves as the part starts to open.
+    """
+
+    name: str
+    kind: Literal["handle", "knob", "button", "lever", "edge", "rim"]
+    position: Vector
+    outward: Vector
+    pull: Vector
+
+    def __post_init__(self) -> None:
+        for word, vector in (("outward", self.outward), ("pull", self.pull)):
+            norm = math.sqrt(sum(a * a for a in vector))
+            if abs(norm - 1.0) > 1e-9:
+                raise KinematicError(
+                    f"grip {self.name}: {word} {vector} has length {norm!r}, expected 1 within "
+                    "1e-9; normalize it"
+                )
+
+
+@dataclass(frozen=True, kw_only=True)
 class DraftPart:
     """A rigid part before finishing; where bodies overlap, the later one displaces the earlier."""
 
     name: str
     label: str
-    """What the part is in the category's words: base, lid, door, drawer, rack ..."""
+    """Its role, a word of `artgen.articulation.roles`: base, lid, door, drawer, rack ..."""
     bodies: tuple[Body, ...]
+    grips: tuple[Grip, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,6 +118,24 @@ class Spring:
 
     stiffness: float
     reference: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Latch:
+    """What keeps a closed end closed: a magnet, a ball catch, a detent.
+
+    It pulls towards rest with `force` (N or N m) at q = 0, less in proportion up to `reach` (rad or
+    m), and not at all beyond.
+    """
+
+    force: float
+    reach: float
+
+    def __post_init__(self) -> None:
+        if not (self.force > 0.0 and self.reach > 0.0):
+            raise KinematicError(
+                f"a latch of force {self.force} and reach {self.reach} holds nothing; both > 0"
+            )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,6 +174,7 @@ class Joint:
     effort: float
     velocity: float = 2.0
     spring: Spring | None = None
+    latch: Latch | None = None
     mimic: Mimic | None = None
 
     def __post_init__(self) -> None:
@@ -205,6 +253,7 @@ class Part:
     collision: tuple[TriMesh, ...]
     mass: Mass
     densities: tuple[float, ...] | None = None
+    grips: tuple[Grip, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,6 +1,9 @@
 """The errors that artgen raises on purpose; each says where, what was found, what was expected,
 what to do."""
 
+import difflib
+from collections.abc import Sequence
+
 
 class ArtgenError(Exception):
     """A fault the user can act on; the command line prints it in one line and exits with 2."""
@@ -36,3 +39,9 @@ class WorkerError(ArtgenError):
 
 class UsageError(ArtgenError):
     """A command was given an argument, folder or machine it cannot work with."""
+
+
+def did_you_mean(word: str, known: Sequence[str]) -> str:
+    """` (did you mean 'x'?)`, or nothing."""
+    close = difflib.get_close_matches(word, known, n=1)
+    return f" (did you mean {close[0]!r}?)" if close else ""

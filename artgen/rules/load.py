@@ -1,13 +1,12 @@
 """TOML to CategoryRule; every error names file, key, value and bound."""
 
-import difflib
 import tomllib
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from artgen.core.errors import RuleError
+from artgen.core.errors import RuleError, did_you_mean
 from artgen.core.jsonio import content_hash
 from artgen.rules.distributions import (
     Chance,
@@ -70,12 +69,6 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise RuleError(f"{path.parent.name}/{path.name}: not valid TOML: {error}") from error
 
 
-def did_you_mean(word: str, known: Sequence[str]) -> str:
-    """` (did you mean 'x'?)`, or nothing."""
-    close = difflib.get_close_matches(word, known, n=1)
-    return f" (did you mean {close[0]!r}?)" if close else ""
-
-
 class _Reader:
     """Turns one file's tables into values; carries the file's name for messages."""
 
@@ -88,7 +81,7 @@ class _Reader:
     def rule(self, data: Mapping[str, Any], palette: Mapping[str, Any]) -> CategoryRule:
         self.known_keys("", data, TABLES)
         head = self.table(data, "category")
-        self.known_keys("category", head, ("name", "version", "summary", "tries"))
+        self.known_keys("category", head, ("name", "version", "summary", "tries", "held"))
         surfaces = {
             role: self.surface(role, entry, palette)
             for role, entry in self.table(data, "surfaces").items()
@@ -106,6 +99,7 @@ class _Reader:
             surfaces=surfaces,
             invariants=tuple(self.invariant(i) for i in data.get("invariant", [])),
             tries=self.of_type("category.tries", head.get("tries", 200), int),
+            held=tuple(self.of_type("category.held", head.get("held", []), list)),
             file=self.file,
             digest=content_hash([data, used]),
         )

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from artgen.core.errors import RuleError
+from artgen.core.errors import RuleError, did_you_mean
 from artgen.core.stream import Stream
 from artgen.core.surface import SurfaceSpec
-from artgen.rules.load import did_you_mean, rules_folder
+from artgen.rules.load import rules_folder
 from artgen.rules.schema import CategoryRule
 from artgen.rules.surfaces import load_palette, surface_spec
 

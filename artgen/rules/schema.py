@@ -33,8 +33,9 @@ class CategoryRule:
         version: bumped when the same seed gives another object.
         bands: `width`, `depth`, `height` (extent along x, y, z, m) and `mass` (kg).
         draws: parameter name to what it is drawn from; exactly the fields of the builder's Params.
-        surfaces: role in the builder to a choice among palette entries of `_surfaces.toml`.
+        surfaces: role in the builder to a choice among palette entries of `_surfaces*.toml`.
         invariants: names of predicates that the builder's module defines.
+        held: labels of parts that stay at every angle: friction barrels, counterbalanced doors.
         tries: samples drawn before the rule is called impossible.
         file: where it was read, for messages.
         digest: sha256 of the rule and of the palette entries it names.
@@ -48,5 +49,6 @@ class CategoryRule:
     surfaces: Mapping[str, Choice]
     invariants: tuple[str, ...]
     tries: int
+    held: tuple[str, ...]
     file: str
     digest: str

@@ -1,4 +1,4 @@
-"""Palette entries of `_surfaces.toml` to SurfaceSpec."""
+"""Palette entries of `_surfaces*.toml` to SurfaceSpec."""
 
 import tomllib
 from collections.abc import Mapping
@@ -16,18 +16,27 @@ KEYS = ("recipe", "color", "tile", "detail", *NUMBERS)
 
 
 def load_palette(folder: Path) -> dict[str, dict[str, Any]]:
-    """Name to raw entry of `<folder>/_surfaces.toml`, every key checked.
+    """Name to raw entry of all `<folder>/_surfaces*.toml`, every key checked.
 
     Raises:
-        RuleError: an entry has an unknown key, no recipe, or a color that is not `#rrggbb`.
+        RuleError: an entry has an unknown key, no recipe, a color that is not `#rrggbb`, or two
+            files define it.
     """
-    path = folder / "_surfaces.toml"
-    try:
-        palette = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as error:
-        raise RuleError(f"{folder.name}/_surfaces.toml: cannot be read: {error}") from error
-    for name, entry in palette.items():
-        _check(f"{folder.name}/_surfaces.toml: [{name}]", entry)
+    palette: dict[str, dict[str, Any]] = {}
+    paths = sorted(folder.glob("_surfaces*.toml"))
+    if not paths:
+        raise RuleError(f"{folder.name}: there is no _surfaces.toml; the palettes are missing")
+    for path in paths:
+        where = f"{folder.name}/{path.name}"
+        try:
+            entries = tomllib.loads(path.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise RuleError(f"{where}: cannot be read: {error}") from error
+        for name, entry in entries.items():
+            if name in palette:
+                raise RuleError(f"{where}: [{name}] is defined twice; rename one of the twins")
+            _check(f"{where}: [{name}]", entry)
+            palette[name] = entry
     return palette
 
 

@@ -1,5 +1,9 @@
-"""Image sets for surfaces, synthesised in numpy; equal specs give equal images on every machine."""
+"""Image sets for surfaces, synthesised in numpy; equal specs give equal images on every machine.
 
+A recipe is a function of the same name, in the table below or in a module `<recipe>.py` beside it.
+"""
+
+import importlib
 from collections.abc import Callable, Mapping
 
 from artgen.core.errors import UsageError
@@ -19,7 +23,9 @@ __all__ = ["RECIPES", "VERSION", "TextureSet", "texture_set"]
 VERSION = 1
 """Raised when a recipe gives other images for the same spec."""
 
-RECIPES: Mapping[str, Callable[[SurfaceSpec], TextureSet]] = {
+Recipe = Callable[[SurfaceSpec], TextureSet]
+
+RECIPES: Mapping[str, Recipe] = {
     "anodized": anodized,
     "appliance_display": appliance_display,
     "appliance_panel": appliance_panel,
@@ -41,9 +47,18 @@ def texture_set(spec: SurfaceSpec) -> TextureSet:
     Raises:
         UsageError: the recipe is unknown.
     """
-    if spec.recipe not in RECIPES:
+    return _recipe(spec)(spec)
+
+
+def _recipe(spec: SurfaceSpec) -> Recipe:
+    if spec.recipe in RECIPES:
+        return RECIPES[spec.recipe]
+    try:
+        module = importlib.import_module(f"{__name__}.{spec.recipe}")
+        made: Recipe = getattr(module, spec.recipe)
+    except (ImportError, AttributeError) as error:
         raise UsageError(
             f"surface {spec.name}: there is no texture recipe {spec.recipe!r}; "
-            f"known: {', '.join(sorted(RECIPES))}"
-        )
-    return RECIPES[spec.recipe](spec)
+            f"known: {', '.join(sorted(RECIPES))} and artgen/textures/<recipe>.py"
+        ) from error
+    return made

@@ -1,23 +1,23 @@
 """L6: left alone, joints stay where friction, springs and stops hold them."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 
 import mujoco
 import numpy as np
 
 from artgen.articulation.types import Joint
+from artgen.core.errors import RuleError
 from artgen.core.mesh import Floats
 from artgen.simulation.effects import Task, needed_effects, only
 from artgen.validate.bounds import Bounds
 from artgen.validate.bundle_subject import BundleSubject
 from artgen.validate.physics import coarse_step, simulating, warnings_of
 from artgen.validate.report import Finding, Simulated
+from artgen.validate.semantics import packaged_rule
 from artgen.validate.subject import Subject
 
 SETTLE_SECONDS = 2.0
 """Long enough for friction creep and for a part that is not held to swing away."""
-HELD: Mapping[str, Sequence[str]] = {"laptop": ("lid",), "dishwasher": ("door",)}
-"""Category to the labels of parts that stay at every angle: friction barrels, counterbalances."""
 HELD_POSES = 21
 
 
@@ -87,8 +87,7 @@ def holds(subject: BundleSubject) -> Iterator[Finding]:
     every angle."""
     model, bound = subject.simulated, subject.bounds.hold_margin
     data = mujoco.MjData(model)
-    labels = HELD.get(subject.bundle.category, ())
-    held = {part.name for part in subject.parts if part.label in labels}
+    held = {part.name for part in subject.parts if part.label in held_labels(subject)}
     for joint in subject.joints:
         if joint.child not in held or joint.limit is None:
             continue
@@ -105,6 +104,14 @@ def holds(subject: BundleSubject) -> Iterator[Finding]:
                 cause=f"friction of {joint.friction:g} does not hold it at {q:.3g}",
                 remedy="raise the friction, or balance the part by a spring",
             )
+
+
+def held_labels(subject: BundleSubject) -> tuple[str, ...]:
+    """Labels of parts that the category's rule wants held; none where there is no rule."""
+    try:
+        return packaged_rule(subject.bundle.category).held
+    except RuleError:
+        return ()
 
 
 def _load(model: mujoco.MjModel, data: mujoco.MjData, joint: Joint, q: float) -> float:
