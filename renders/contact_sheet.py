@@ -21,7 +21,7 @@ COLUMNS = 4
 def write_contact_sheet(path: Path, samples: Iterable[Path]) -> None:
     """A PNG of the staged samples, in their order: first and last state of the first view."""
     cells = [_cell(sample) for sample in samples]
-    write_bytes(path, png_file(_grid(cells)))
+    write_bytes(path, png_file(grid(cells, columns=COLUMNS)))
 
 
 def _cell(sample_path: Path) -> Bytes:
@@ -30,7 +30,12 @@ def _cell(sample_path: Path) -> Bytes:
     asset_id = shard.manifest.ids[0]
     sample = shard.read(asset_id, views=[0])
     pictures = [on_paper(sample.rgba[t, 0]) for t in (0, sample.rgba.shape[0] - 1)]
-    return np.concatenate([np.concatenate(pictures, axis=1), _label(asset_id, pictures)], axis=0)
+    return labeled(asset_id, pictures)
+
+
+def labeled(text: str, pictures: Sequence[Bytes]) -> Bytes:
+    """(h, w, 3) pictures of one height side by side over a line of text."""
+    return np.concatenate([np.concatenate(pictures, axis=1), _label(text, pictures)], axis=0)
 
 
 def on_paper(rgba: Bytes) -> Bytes:
@@ -46,10 +51,10 @@ def _label(text: str, pictures: Sequence[Bytes]) -> Bytes:
     return np.asarray(strip)
 
 
-def _grid(cells: Sequence[Bytes]) -> Bytes:
-    """Cells of one size in rows, with gaps of paper."""
+def grid(cells: Sequence[Bytes], *, columns: int) -> Bytes:
+    """Cells of one size in rows of `columns` at most, with gaps of paper."""
     height, width = (max(cell.shape[axis] for cell in cells) for axis in (0, 1))
-    columns = min(COLUMNS, len(cells))
+    columns = min(columns, len(cells))
     rows = -(-len(cells) // columns)
     sheet = np.full(
         (GAP_PX + rows * (height + GAP_PX), GAP_PX + columns * (width + GAP_PX), 3), PAPER, np.uint8
