@@ -19,7 +19,7 @@ from artgen.core.jsonio import write_bytes
 from artgen.export import Bundle, read_bundle
 from artgen.pipeline import AssetTask, Outcome, check_kept, plan, run_tasks
 from artgen.progress import progress
-from artgen.rules import load_rule, rule_names
+from artgen.rules import load_rule, parse_override, rule_names
 from artgen.run_folder import RunFolder, opened, run_log
 from artgen.system_libraries import check_libraries
 
@@ -43,6 +43,9 @@ class Generate:
     """How many assets in all, dealt out to the categories in turn."""
     seed: int = 0
     """Root of all randomness."""
+    set: tuple[str, ...] = ()
+    """Parameters to set, such as cabinet.rows=3, dishwasher.surfaces.front=enamel_white or
+    'laptop.width={ uniform = [0.3, 0.32] }'; checked like a rule."""
     out: Path = Path("out")
     """Folder of the run; receives assets, samples, shards, catalog, contact sheet, summary and
     logs.
@@ -71,7 +74,13 @@ def generate(argv: Sequence[str]) -> int:
         )
     check_libraries()
     names = command.categories or tuple(rule_names())
-    tasks = plan(names, command.count, command.seed, occlusion=command.bake_ao)
+    tasks = plan(
+        names,
+        command.count,
+        command.seed,
+        occlusion=command.bake_ao,
+        overrides=[parse_override(word) for word in command.set],
+    )
     with opened(command.out, seed=command.seed, need_bytes=len(tasks) * BYTES_PER_ASSET) as folder:
         outcomes = build_assets(folder, tasks, workers=command.workers)
         code = 0

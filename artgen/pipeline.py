@@ -24,7 +24,7 @@ from artgen.finish import RawBody, finish
 from artgen.finish_jobs import RoundJob, read_bodies, write_bodies
 from artgen.generators import load_builder
 from artgen.pool import run_in_processes
-from artgen.rules import CategoryRule, load_rule, sample
+from artgen.rules import CategoryRule, Override, load_rule, overridden, sample
 from artgen.run_folder import RunFolder
 from artgen.textures.library import TextureLibrary
 from artgen.validate import validate_bundle
@@ -43,6 +43,12 @@ class AssetTask:
     index: int
     seed: int
     occlusion: bool = False
+    overrides: tuple[Override, ...] = ()
+
+    @property
+    def rule(self) -> CategoryRule:
+        """What is drawn from, overrides included."""
+        return overridden(load_rule(self.category), self.overrides)
 
     @property
     def asset_id(self) -> str:
@@ -65,23 +71,36 @@ class Outcome:
 
 
 def plan(
-    categories: Sequence[str], count: int, seed: int, *, occlusion: bool = False
+    categories: Sequence[str],
+    count: int,
+    seed: int,
+    *,
+    occlusion: bool = False,
+    overrides: Sequence[Override] = (),
 ) -> list[AssetTask]:
     """`count` tasks dealt out to the categories in turn; a larger count only adds tasks.
 
     Raises:
-        RuleError: a category is unknown. UsageError: the count is not positive.
+        RuleError: a category is unknown, or an override breaks its rule. UsageError: the count is
+            not positive, or an override is for a category that is not made.
     """
     if count < 1:
         raise UsageError(f"--count {count} makes nothing; ask for at least 1")
     for category in categories:
-        load_rule(category)
+        overridden(load_rule(category), overrides)
+    for override in overrides:
+        if override.category not in categories:
+            raise UsageError(
+                f"--set {override}: {override.category!r} is not among the categories made: "
+                f"{', '.join(categories)}"
+            )
     return [
         AssetTask(
             category=categories[k % len(categories)],
             index=k // len(categories),
             seed=seed,
             occlusion=occlusion,
+            overrides=tuple(overrides),
         )
         for k in range(count)
     ]
@@ -94,7 +113,7 @@ def check_kept(folder: RunFolder, tasks: Sequence[AssetTask]) -> set[str]:
         UsageError: one was made from another seed, rule or version; nothing is overwritten.
     """
     kept = set()
-    digests = {category: load_rule(category).digest for category in {t.category for t in tasks}}
+    digests = {task.category: task.rule.digest for task in {t.category: t for t in tasks}.values()}
     for task in tasks:
         manifest = task.place(folder.assets) / "manifest.json"
         if not manifest.exists():
@@ -148,7 +167,7 @@ class Stopwatch:
 def make_asset(task: AssetTask, tools: Toolbox) -> Outcome:
     """Build, finish, export and validate one asset; it lands whole in assets/ or in failed/."""
     watch = Stopwatch()
-    rule = load_rule(task.category)
+    rule = task.rule
     obj = built(task, rule, tools, watch)
     staged = task.place(tools.folder.work / "staged")
     messages: list[str] = []
@@ -204,6 +223,7 @@ def built(
             "occlusion": task.occlusion,
             "rule": {"version": rule.version, "digest": rule.digest},
             "params": plain(drawn.params),
+            **({"set": [str(o) for o in task.overrides]} if task.overrides else {}),
         },
     )
     watch.lap("finish")

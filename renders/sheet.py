@@ -32,7 +32,7 @@ from artgen.worker import BlenderWorker
 from renders.contact_sheet import grid, labeled, on_paper
 from renders.subject import hull_corners, loaded_meshes, moved_corners
 
-COLUMNS = 6
+COLUMNS = 4
 """Assets a row; each takes two images."""
 OPEN = 0.7
 """Share of its travel by which a joint is shown open."""
@@ -58,6 +58,8 @@ class Sheet:
     """Assets of each."""
     seed: int = 2026
     """Root of all randomness."""
+    set: tuple[str, ...] = ()
+    """Parameters to set, as for `artgen generate`."""
     size: int = 192
     """Width of an image, px."""
     paths: int = 16
@@ -94,6 +96,7 @@ def _generation(command: Sheet, run: Path) -> list[str]:
         *("--categories", *command.categories),
         *("--count", str(command.count * len(command.categories))),
         *("--seed", str(command.seed), "--out", str(run), "--workers", str(command.workers)),
+        *(("--set", *command.set) if command.set else ()),
         "--no-render",
     ]
 

@@ -2,7 +2,18 @@
 streams."""
 
 from artgen.rules.load import load_rule, rule_names
+from artgen.rules.override import Override, overridden, parse_override
 from artgen.rules.sample import Sampled, sample
 from artgen.rules.schema import Band, CategoryRule
 
-__all__ = ["Band", "CategoryRule", "Sampled", "load_rule", "rule_names", "sample"]
+__all__ = [
+    "Band",
+    "CategoryRule",
+    "Override",
+    "Sampled",
+    "load_rule",
+    "overridden",
+    "parse_override",
+    "rule_names",
+    "sample",
+]

@@ -69,6 +69,15 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise RuleError(f"{path.parent.name}/{path.name}: not valid TOML: {error}") from error
 
 
+def drawn_from(file: str, key: str, entry: Mapping[str, Any]) -> Draw:
+    """One entry of [sample], wherever it was written; `file` and `key` are for messages.
+
+    Raises:
+        RuleError: it breaks the schema.
+    """
+    return _Reader(file).draw(f"sample.{key}", entry)
+
+
 class _Reader:
     """Turns one file's tables into values; carries the file's name for messages."""
 
