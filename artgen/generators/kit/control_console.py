@@ -31,6 +31,20 @@ class PanelPlane:
         matrix[:3, 3] = self.origin
         return solid.transformed(matrix)
 
+    def point(self, u: float, v: float, w: float = 0.0) -> Vector:
+        """A place `u` right, `v` up and `w` out of the lower left corner, in the object frame."""
+        x, y, z = (
+            float(o + u * r + v * s + w * n)
+            for o, r, s, n in zip(self.origin, self.right, self.up, self.outward, strict=True)
+        )
+        return x, y, z
+
+    @property
+    def outward(self) -> Vector:
+        """Unit vector away from the object."""
+        x, y, z = (float(c) + 0.0 for c in np.cross(self.right, self.up))
+        return x, y, z
+
     def decal(self) -> Decal:
         """An image over the whole panel."""
         return Decal(origin=self.origin, right=self.right, up=self.up, size=self.size)

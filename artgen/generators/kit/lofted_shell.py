@@ -1,6 +1,7 @@
 """Cases with rounded corners in plan and rounded edges below, made as lofts through rings."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -73,3 +74,27 @@ def cover(
         height = z[1] - crown * (1.0 - math.sin(angle))
         rings.append(np.c_[outline, np.full(len(outline), height)])
     return loft(rings)
+
+
+def stacked(
+    *,
+    x: float,
+    y: tuple[float, float],
+    radii: tuple[float, float],
+    steps: Sequence[tuple[float, float]],
+) -> Solid:
+    """A body that rises through outlines drawn in by (inset, z), from its foot to its top."""
+    rings = [
+        np.c_[outline, np.full(len(outline), z)]
+        for outline, z in ((plan(x, *y, radii, inset=inset), z) for inset, z in steps)
+    ]
+    return loft(rings)
+
+
+def crown_steps(
+    low: float, top: float, crown: float, *, steps: int = ROUND_STEPS
+) -> list[tuple[float, float]]:
+    """Steps of `stacked` for straight walls from `low` whose upper edge is a quarter round."""
+    angles = [0.5 * math.pi * k / steps for k in range(steps + 1)]
+    round_ = [(crown * (1.0 - math.cos(a)), top - crown * (1.0 - math.sin(a))) for a in angles]
+    return [(0.0, low), *round_]
