@@ -1,0 +1,1 @@
+"""`artgen study coverage`: what the rules really make: parameters, topologies, near-duplicates."""
