@@ -1,4 +1,4 @@
-"""Coverage: equal objects are twins, others are not; names do not matter; drawing has an address."""
+"""Coverage: equal objects are twins, others are not; names do not matter; draws have addresses."""
 
 import dataclasses
 from pathlib import Path
