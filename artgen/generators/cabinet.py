@@ -1,6 +1,5 @@
 """Cabinets: sideboards, chests, base units, vanities, nightstands, media units, tall cupboards."""
 
-import math
 from collections.abc import Mapping
 
 from artgen.articulation.types import Body, Draft, DraftPart
@@ -10,26 +9,12 @@ from artgen.generators.kit.basin import basin, tap
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.cabinet_design import Design
 from artgen.generators.kit.cabinet_movers import Works, cell_works
-from artgen.generators.kit.cabinet_params import MILLED, CabinetParams, case_of, layout
+from artgen.generators.kit.cabinet_params import CabinetParams, case_of, layout
 from artgen.generators.kit.carcass import back_panel, case_boards, inner_boards
-from artgen.generators.kit.density import GLASS, MDF, OAK, PARTICLEBOARD, PLYWOOD, STEEL, ZINC
+from artgen.generators.kit.density import STEEL
 from artgen.generators.kit.front_layout import Cell
-from artgen.generators.kit.front_panel import FrontMaker
-from artgen.generators.kit.handle import Handle
+from artgen.generators.kit.furniture_make import design_of, stocks_of
 from artgen.generators.kit.stand import STANDS, Stand
-
-FINISHES: Mapping[str, tuple[str, str]] = {
-    "wood": ("wood", "wood"),
-    "paint": ("paint", "paint"),
-    "wood_and_paint": ("wood", "paint"),
-    "paint_and_wood": ("paint", "wood"),
-    "white_and_wood": ("melamine", "wood"),
-    "white_and_paint": ("melamine", "paint"),
-}
-"""Surfaces of the case and of the fronts."""
-CERAMIC = 2300.0
-"""Vitreous china, kg/m3."""
-
 
 PARAMS = CabinetParams
 INVARIANTS = cabinet_params.INVARIANTS
@@ -37,7 +22,8 @@ INVARIANTS = cabinet_params.INVARIANTS
 
 def build(p: CabinetParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     """A case with drawers that slide to the front and doors that turn about upright edges."""
-    design = design_of(p)
+    worktop = "worktop" if p.worktop and p.top == "overhang" else None
+    design = design_of(p, case_of(p), stocks_of(p.finish, top=worktop))
     cells, separators = layout(p)
     works = Works()
     for number, cell in enumerate(cells, start=1):
@@ -60,62 +46,6 @@ def build(p: CabinetParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
         surfaces=tuple(spec for role, spec in surfaces.items() if role in used),
         preconditions=works.preconditions,
     )
-
-
-def design_of(p: CabinetParams) -> Design:
-    """What all cells share."""
-    stocks = stocks_of(p)
-    maker = FrontMaker(
-        stock=stocks["front"],
-        pane=stocks["pane"],
-        thickness=p.front_thickness,
-        frame=p.frame,
-        pitch=p.pitch,
-        bars=p.bars,
-        grain=p.grain,
-    )
-    style = p.grip if p.grip not in MILLED else "bar"
-    return Design(
-        case=case_of(p),
-        maker=maker,
-        inset=p.inset,
-        gap=p.gap,
-        style=p.style,
-        grip=p.grip,
-        handle=Handle(
-            style=style, length=p.handle_length, radius=p.handle_radius, standoff=p.standoff
-        ),
-        grip_edge=p.grip_edge,
-        stocks=stocks,
-        runner="metal" if p.runner == "metal" else "wood",
-        wall=p.wall if p.runner == "metal" else max(p.wall, 0.014),
-        travel=p.travel,
-        opening=math.radians(p.opening_deg),
-        drawer_friction=p.drawer_friction,
-        door_friction=p.door_friction,
-        shelf_pitch=p.shelf_pitch,
-    )
-
-
-def stocks_of(p: CabinetParams) -> dict[str, Stock]:
-    """What each role is cut from."""
-    case, front = FINISHES[p.finish]
-    top = "worktop" if p.worktop and p.top == "overhang" else case
-    return {
-        "case": Stock(surface=case, density=PARTICLEBOARD, edge=0.0012),
-        "top": Stock(surface=top, density=PARTICLEBOARD, edge=0.002),
-        "front": Stock(surface=front, density=MDF, edge=0.0015),
-        "shelf": Stock(surface=case, density=PARTICLEBOARD, edge=0.0007),
-        "leg": Stock(surface="wood", density=OAK, edge=0.0015),
-        "box": Stock(surface="drawer_box", density=PLYWOOD, edge=0.0007),
-        "bottom": Stock(surface="drawer_box", density=PLYWOOD, edge=0.0),
-        "runner": Stock(surface="drawer_box", density=OAK, edge=0.0),
-        "back": Stock(surface=case, density=MDF, edge=0.0),
-        "metal": Stock(surface="metal", density=ZINC, edge=0.0),
-        "steel": Stock(surface="steel", density=STEEL, edge=0.0),
-        "ceramic": Stock(surface="ceramic", density=CERAMIC, edge=0.003),
-        "pane": Stock(surface="glass", density=GLASS, edge=0.0),
-    }
 
 
 def _cable_holes(p: CabinetParams, cells: list[Cell]) -> tuple[tuple[float, float], ...]:

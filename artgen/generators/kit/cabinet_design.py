@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from artgen.articulation.types import Body
+from artgen.articulation.types import Body, Grip, Vector
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.carcass import Case
 from artgen.generators.kit.front_layout import Cell, Rect
-from artgen.generators.kit.front_panel import FrontMaker, Style
+from artgen.generators.kit.front_panel import REAR, FrontMaker, Style
 from artgen.generators.kit.handle import Handle
 
 BUMPER = 0.002
@@ -18,6 +18,7 @@ SCREWS = (0.032, 0.064, 0.096, 0.128, 0.160, 0.192, 0.256, 0.320)
 """Distances of handle screws that are sold, m."""
 HIGH = 1.0
 """m; doors that begin above have their handle at their lower end, lower ones at their upper."""
+OUTWARD = (0.0, -1.0, 0.0)
 Side = Literal["left", "right"]
 
 
@@ -93,49 +94,86 @@ def fitting(handle: Handle, room: float) -> Handle:
     return replace(handle, length=max(lengths, default=SCREWS[0]))
 
 
-def drawer_front(design: Design, rect: Rect) -> tuple[Body, ...]:
+@dataclass(frozen=True, kw_only=True)
+class Front:
+    """A front with what one takes hold of.
+
+    Attributes:
+        holds: where fingers close, m; one for each handle.
+        kind: what they close around.
+        arm: the nearest a door's handle comes to its hinge, m.
+        reach: of the handle from the face; 0 without one.
+    """
+
+    bodies: tuple[Body, ...]
+    holds: tuple[Vector, ...]
+    kind: Literal["handle", "knob", "edge"]
+    arm: float = 0.0
+    reach: float = 0.0
+
+    def grips(self, part: str) -> tuple[Grip, ...]:
+        """Frames for hands that pull straight out; twins are told apart by a letter."""
+        names = [f"{part}_{self.kind}{letter}" for letter in ("", "_b")]
+        if len(self.holds) > 1:
+            names[0] += "_a"
+        return tuple(
+            Grip(name=name, kind=self.kind, position=hold, outward=OUTWARD, pull=OUTWARD)
+            for name, hold in zip(names, self.holds, strict=False)
+        )
+
+
+def drawer_front(design: Design, rect: Rect) -> Front:
     """Front and handles of a drawer."""
     maker, back = design.maker, design.back
-    if design.grip == "milled":
-        return maker.milled(rect, back, "top")
-    if design.grip == "cut_out":
-        return maker.cut_out(rect, back, "top", rect.middle[0])
+    x, z = rect.middle
+    if design.grip in ("milled", "cut_out"):
+        hold = (x, design.face, rect.z1 - (REAR if design.grip == "milled" else 0.03))
+        bodies = (
+            maker.milled(rect, back, "top")
+            if design.grip == "milled"
+            else maker.cut_out(rect, back, "top", x)
+        )
+        return Front(bodies=bodies, holds=(hold,), kind="edge")
     front = maker.front(design.drawer_style, rect, back)
     handle = fitting(design.handle, 0.5 * rect.width)
-    x, z = rect.middle
     if rect.height > 0.21:
         z = rect.z1 - max(0.065, design.maker.frame / 2.0)
     twins = rect.width > 0.72 and handle.span < 0.24
     spots = (x - 0.27 * rect.width, x + 0.27 * rect.width) if twins else (x,)
-    return front + tuple(handle.at(s, design.face, z, "x", design.stocks["metal"]) for s in spots)
+    metal = design.stocks["metal"]
+    return Front(
+        bodies=front + tuple(handle.at(s, design.face, z, "x", metal) for s in spots),
+        holds=tuple((s, design.face - handle.standoff, z) for s in spots),
+        kind="knob" if handle.style == "knob" else "handle",
+    )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Grip:
-    """A door's bodies and the nearest its handle comes to the hinge, m; reach 0 without handle."""
-
-    bodies: tuple[Body, ...]
-    arm: float
-    reach: float
-
-
-def door_front(design: Design, rect: Rect, hinge: Side) -> Grip:
+def door_front(design: Design, rect: Rect, hinge: Side) -> Front:
     """Front and handle of a door hinged at its left or right edge."""
     maker, back = design.maker, design.back
     free: Side = "right" if hinge == "left" else "left"
+    edge, inwards = (rect.x1, -1.0) if free == "right" else (rect.x0, 1.0)
     if design.grip == "milled":
-        return Grip(bodies=maker.milled(rect, back, free), arm=rect.width, reach=0.0)
+        hold = (edge + inwards * REAR, design.face, grip_height(rect, 0.11))
+        bodies = maker.milled(rect, back, free)
+        return Front(bodies=bodies, holds=(hold,), kind="edge", arm=rect.width)
     if design.grip == "cut_out":
         z = grip_height(rect, 0.11)
-        return Grip(bodies=maker.cut_out(rect, back, free, z), arm=rect.width, reach=0.0)
+        bodies = maker.cut_out(rect, back, free, z)
+        hold = (edge + inwards * 0.03, design.face, z)
+        return Front(bodies=bodies, holds=(hold,), kind="edge", arm=rect.width)
     handle = design.handle if design.handle.style != "cup" else replace(design.handle, style="knob")
     handle = fitting(handle, 0.45 * rect.height)
     aside = max(design.grip_edge, maker.frame / 2.0 if design.style != "slab" else 0.0)
-    x = rect.x1 - aside if free == "right" else rect.x0 + aside
-    body = handle.at(x, design.face, grip_height(rect, handle.span), "z", design.stocks["metal"])
-    front = maker.front(design.style, rect, back)
-    arm = rect.width - aside - 3.0 * handle.radius
-    return Grip(bodies=(*front, body), arm=arm, reach=handle.reach)
+    x, z = edge + inwards * aside, grip_height(rect, handle.span)
+    body = handle.at(x, design.face, z, "z", design.stocks["metal"])
+    return Front(
+        bodies=(*maker.front(design.style, rect, back), body),
+        holds=((x, design.face - handle.standoff, z),),
+        kind="knob" if handle.style == "knob" else "handle",
+        arm=rect.width - aside - 3.0 * handle.radius,
+        reach=handle.reach,
+    )
 
 
 def grip_height(rect: Rect, span: float) -> float:
@@ -148,10 +186,10 @@ def grip_height(rect: Rect, span: float) -> float:
     return min(high, max(low, wanted))
 
 
-def opening_angle(design: Design, grip: Grip, *, free_side: bool, ahead: float) -> float:
+def opening_angle(design: Design, front: Front, *, free_side: bool, ahead: float) -> float:
     """How far a door may open, rad: beside another cell its handle must stay before its own."""
     if free_side:
         return design.opening
-    if grip.reach == 0.0:
+    if front.reach == 0.0:
         return math.pi / 2.0
-    return min(math.pi / 2.0, math.atan2(grip.arm, grip.reach + ahead) - 0.01)
+    return min(math.pi / 2.0, math.atan2(front.arm, front.reach + ahead) - 0.01)

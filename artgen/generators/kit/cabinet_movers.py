@@ -1,12 +1,15 @@
 """Drawers and doors of a cabinet: each with its joint and what it needs in the base."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from artgen.articulation.types import Body, DraftPart, Joint, Limit, Precondition
 from artgen.generators.kit.cabinet_design import (
     BUMPER,
+    OUTWARD,
     Design,
+    Front,
     Side,
     door_front,
     drawer_front,
@@ -51,46 +54,70 @@ class Works:
         )
 
 
-def cell_works(design: Design, cell: Cell, number: int) -> Works:
+FitOut = Callable[[Design, Rect, float], tuple[tuple[Body, ...], tuple[float, ...]]]
+"""What stands in the clear room of a cell behind y: its bodies, and heights that hinges avoid."""
+
+
+def loose_shelves(
+    design: Design, room: Rect, front: float
+) -> tuple[tuple[Body, ...], tuple[float, ...]]:
+    """Shelves on pins, the design's pitch apart."""
+    heights = shelf_heights(room, design.shelf_pitch)
+    bodies = tuple(
+        body
+        for z in heights
+        for body in shelf_on_pins(
+            room, z, front=front, rear=design.case.rear,
+            stock=design.stocks["shelf"], metal=design.stocks["steel"],
+        )
+    )  # fmt: skip
+    return bodies, tuple(z + SHELF / 2.0 for z in heights)
+
+
+def cell_works(design: Design, cell: Cell, number: int, fit_out: FitOut = loose_shelves) -> Works:
     """Everything that belongs to one cell; `number` tells it from the others."""
     kind = cell.leaf.kind
     rect = design.front_rect(cell)
     if kind == "drawer":
-        return _drawer(
-            design, cell.opening, drawer_front(design, rect), design.back, f"drawer_{number}"
-        )
+        front = drawer_front(design, rect)
+        return sliding_drawer(design, cell.opening, front, design.back, f"drawer_{number}")
     if kind == "open":
-        return Works(base=_shelves(design, cell.opening, design.case.front + 0.012)[0])
+        return Works(base=fit_out(design, cell.opening, design.case.front + 0.012)[0])
     if kind == "pair":
-        return _pair(design, cell, number)
+        return _pair(design, cell, number, fit_out)
     side: Side = "left" if kind == "door_left" else "right"
     free_side = cell.at_left if side == "left" else cell.at_right
     name = f"door_{number}"
     room, inner = cell.opening, Works()
     if cell.leaf.inner and free_side:
-        room, inner = _inner_drawers(design, cell, name, number)
-    shelves, taken = _shelves(design, room, _behind_door(design))
-    door = _door(design, rect, cell.opening, side, name=name, free_side=free_side, taken=taken)
-    return door + Works(base=shelves + _stops(design, cell.opening, (_free_x(rect, side),))) + inner
+        room, inner = _inner_drawers(design, cell, (name,), number)
+    fitted, taken = fit_out(design, room, _behind_door(design))
+    door = hinged_door(
+        design, rect, cell.opening, side, name=name, free_side=free_side, taken=taken
+    )
+    return door + Works(base=fitted + _stops(design, cell.opening, (_free_x(rect, side),))) + inner
 
 
-def _pair(design: Design, cell: Cell, number: int) -> Works:
+def _pair(design: Design, cell: Cell, number: int, fit_out: FitOut) -> Works:
     rect = design.front_rect(cell)
     left, right = halves(rect, design.gap)
-    shelves, taken = _shelves(design, cell.opening, _behind_door(design))
+    names = (f"door_{number}a", f"door_{number}b")
+    room, inner = cell.opening, Works()
+    if cell.leaf.inner and cell.at_left and cell.at_right:
+        room, inner = _inner_drawers(design, cell, names, number)
+    fitted, taken = fit_out(design, room, _behind_door(design))
     pair: tuple[tuple[Rect, Side, bool, str], ...] = (
-        (left, "left", cell.at_left, "a"),
-        (right, "right", cell.at_right, "b"),
+        (left, "left", cell.at_left, names[0]),
+        (right, "right", cell.at_right, names[1]),
     )
-    works = Works(base=shelves)
-    for half, side, free_side, letter in pair:
-        name = f"door_{number}{letter}"
-        works += _door(
+    works = Works(base=fitted)
+    for half, side, free_side, name in pair:
+        works += hinged_door(
             design, half, cell.opening, side, name=name, free_side=free_side, taken=taken
         )
     middle = rect.middle[0]
     stops = _stops(design, cell.opening, (middle - 0.03, middle + 0.03))
-    return works + Works(base=stops)
+    return works + Works(base=stops) + inner
 
 
 def _behind_door(design: Design) -> float:
@@ -110,25 +137,7 @@ def _stops(design: Design, opening: Rect, xs: tuple[float, ...]) -> tuple[Body, 
     return tuple(door_stop(opening, x, design.back, play=0.0012, stock=stock) for x in xs)
 
 
-def _shelves(
-    design: Design, room: Rect, front: float
-) -> tuple[tuple[Body, ...], tuple[float, ...]]:
-    """Loose shelves and the heights that hinges should avoid."""
-    heights = shelf_heights(room, design.shelf_pitch)
-    bodies = tuple(
-        body
-        for z in heights
-        for body in shelf_on_pins(
-            room, z, front=front, rear=design.case.rear,
-            stock=design.stocks["shelf"], metal=design.stocks["steel"],
-        )
-    )  # fmt: skip
-    return bodies, tuple(z + SHELF / 2.0 for z in heights)
-
-
-def _drawer(
-    design: Design, opening: Rect, front: tuple[Body, ...], back: float, name: str
-) -> Works:
+def sliding_drawer(design: Design, opening: Rect, front: Front, back: float, name: str) -> Works:
     """A drawer whose front is given; its box begins at y = `back`."""
     stocks = design.stocks
     room = design.case.rear - REAR_ROOM - back
@@ -139,17 +148,18 @@ def _drawer(
         name=name,
         label="drawer",
         bodies=(
-            *front,
+            *front.bodies,
             *drawer_box(box, stocks["box"], stocks["bottom"]),
             *moving_runners(box, stocks["steel"]),
         ),
+        grips=front.grips(name),
     )
     joint = Joint(
         name=f"{name}_slide",
         type="prismatic",
         parent="base",
         child=name,
-        axis=(0.0, -1.0, 0.0),
+        axis=OUTWARD,
         limit=Limit(lower=0.0, upper=travel(box, design.travel)),
         friction=design.drawer_friction,
         damping=1.5 * design.drawer_friction,
@@ -161,7 +171,7 @@ def _drawer(
     )
 
 
-def _door(
+def hinged_door(
     design: Design,
     rect: Rect,
     opening: Rect,
@@ -175,7 +185,7 @@ def _door(
     sign = 1.0 if side == "left" else -1.0
     edge = rect.x0 if side == "left" else rect.x1
     jamb = opening.x0 if side == "left" else opening.x1
-    grip = door_front(design, rect, side)
+    front = door_front(design, rect, side)
     heights = hinge_heights(rect.z0, rect.z1, taken=taken)
     if design.inset:
         hinges = [
@@ -191,11 +201,12 @@ def _door(
             for z in heights
         ]  # fmt: skip
         origin, ahead = (edge, design.face, 0.0), 0.0
-    angle = opening_angle(design, grip, free_side=free_side, ahead=ahead)
+    angle = opening_angle(design, front, free_side=free_side, ahead=ahead)
     part = DraftPart(
         name=name,
         label="door",
-        bodies=(*grip.bodies, *(body for hinge in hinges for body in hinge.door)),
+        bodies=(*front.bodies, *(body for hinge in hinges for body in hinge.door)),
+        grips=front.grips(name),
     )
     joint = Joint(
         name=f"{name}_hinge",
@@ -215,8 +226,10 @@ def _door(
     )
 
 
-def _inner_drawers(design: Design, cell: Cell, door: str, number: int) -> tuple[Rect, Works]:
-    """Drawers behind a door, on packers; they may leave once the door stands square.
+def _inner_drawers(
+    design: Design, cell: Cell, doors: tuple[str, ...], number: int
+) -> tuple[Rect, Works]:
+    """Drawers behind doors, on packers; they may leave once the doors stand square.
 
     Returns:
         The room that is left above them, and the works.
@@ -236,9 +249,14 @@ def _inner_drawers(design: Design, cell: Cell, door: str, number: int) -> tuple[
         z0 = o.z0 + k * INNER
         place = Rect(x0=o.x0 + PACKER, x1=o.x1 - PACKER, z0=z0, z1=z0 + INNER)
         rect = replace(place.shrunk(0.002), z0=z0 + 0.004, z1=z0 + INNER - 0.03)
-        front = design.maker.cut_out(rect, back, "top", rect.middle[0])
+        x = rect.middle[0]
+        front = Front(
+            bodies=design.maker.cut_out(rect, back, "top", x),
+            holds=((x, back - design.maker.thickness, rect.z1 - 0.03),),
+            kind="edge",
+        )
         name = f"drawer_{number}_{k + 1}"
-        works += _drawer(design, place, front, back, name)
+        works += sliding_drawer(design, place, front, back, name)
         works += Works(
             base=tuple(
                 design.stocks["shelf"].board(
@@ -246,10 +264,11 @@ def _inner_drawers(design: Design, cell: Cell, door: str, number: int) -> tuple[
                 )
                 for x in (o.x0, o.x1 - PACKER)
             ),
-            preconditions=(
+            preconditions=tuple(
                 Precondition(
                     joint=f"{name}_slide", requires=f"{door}_hinge", at_least=math.pi / 2.0
-                ),
+                )
+                for door in doors
             ),
         )
     return replace(o, z0=top + board), works

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from artgen.articulation.types import Axis
 from artgen.generators.kit.cabinet_design import BUMPER
 from artgen.generators.kit.cabinet_hinge import AXIS_AHEAD
 from artgen.generators.kit.cabinet_kinds import KINDS, PATTERNS, Site, columns_of, picked
@@ -17,21 +16,17 @@ from artgen.generators.kit.front_layout import (
     Split,
     slice_face,
 )
-from artgen.generators.kit.front_panel import Style
-
-MILLED = ("milled", "cut_out")
-"""Grips that are part of a plain front."""
+from artgen.generators.kit.furniture_make import MILLED, FurnitureMake
 
 
 @dataclass(frozen=True, kw_only=True)
-class CabinetParams:
+class CabinetParams(FurnitureMake):
     """Lengths in m; factors multiply the kind's usual sizes; tuples hold one draw a column."""
 
     kind: str
     width_factor: float
     depth_factor: float
     height_factor: float
-    mounting: str
     columns: int
     column_weight: tuple[float, ...]
     column_pattern: tuple[float, ...]
@@ -48,30 +43,9 @@ class CabinetParams:
     leg_girth: float
     leg_splay: float
     stand_inset: float
-    board: float
     top: str
     top_thickness: float
     overhang: float
-    style: Style
-    front_thickness: float
-    frame: float
-    pitch: float
-    bars: int
-    grain: Axis
-    gap: float
-    grip: str
-    handle_length: float
-    handle_radius: float
-    standoff: float
-    grip_edge: float
-    runner: str
-    wall: float
-    shelf_pitch: float
-    travel: float
-    opening_deg: float
-    drawer_friction: float
-    door_friction: float
-    finish: str
     worktop: bool
     basin: bool
 
@@ -96,11 +70,6 @@ class CabinetParams:
         if self.stand == "wall":
             return 0.0
         return self.plinth_height if self.stand in ("plinth", "panel") else self.leg_height
-
-    @property
-    def inset(self) -> bool:
-        """Whether fronts sit between the boards."""
-        return self.mounting == "inset"
 
 
 def case_of(p: CabinetParams) -> Case:
