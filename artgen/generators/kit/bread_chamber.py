@@ -70,7 +70,10 @@ class BreadChamber:
 
     def room(self) -> Solid:
         """What the shell must leave free: the chamber and its slots."""
-        under = slab((self.back, -self.half, self.floor - 0.001), (self.front, self.half, self.top - self.lip))  # fmt: skip
+        under = slab(
+            (self.back, -self.half, self.floor - 0.001),
+            (self.front, self.half, self.top - self.lip),
+        )
         return union([under, *self.openings(0.0)])
 
     def openings(self, shrink: float) -> list[Solid]:
@@ -138,13 +141,18 @@ class BreadChamber:
         ]
 
     def carriage(
-        self, served: Sequence[float], steel: Stock, *, low: float, tongue: tuple[float, float]
+        self,
+        served: Sequence[float],
+        steel: Stock,
+        *,
+        low: float,
+        tongue: tuple[float, float, float],
     ) -> Body:
         """The racks that lift the bread of the slots at `served` y, their crossbar and its tongue.
 
         Args:
             low: z of the racks' lower edge at rest, m.
-            tongue: z of the tongue's middle and x of its tip in the lever's channel.
+            tongue: y and z of the tongue's middle and x of its tip in the lever's channel.
         """
         x0, x1 = self.slot_x[0] + 0.003, self.front - 0.004
         bar = (x1 - 0.0045, x1)
@@ -157,13 +165,14 @@ class BreadChamber:
                 slab((x - 0.001, y - half, low + 0.006), (x + 0.001, y + half, low + 0.009))
                 for x in xs.tolist()
             ]
-        y0, y1 = min(served) - 0.004, max(served) + 0.004
-        touch.append(slab((bar[0], y0, low), (bar[1], y1, low + 0.009)))
-        y, (z, tip) = (min(served) + max(served)) / 2.0, tongue
-        touch.append(
-            slab((bar[0], y - 0.0045, min(low, z - 0.004)), (bar[1], y + 0.0045, max(low + 0.009, z + 0.004)))
-        )  # fmt: skip
-        touch.append(slab((bar[0], y - 0.0045, z - 0.004), (tip, y + 0.0045, z + 0.004)))
+        y, z, tip = tongue
+        y0, y1 = min(*served, y) - 0.0045, max(*served, y) + 0.0045
+        post = (min(low, z - 0.004), max(low + 0.009, z + 0.004))
+        touch += [
+            slab((bar[0], y0, low), (bar[1], y1, low + 0.009)),
+            slab((bar[0], y - 0.0045, post[0]), (bar[1], y + 0.0045, post[1])),
+            slab((bar[0], y - 0.0045, z - 0.004), (tip, y + 0.0045, z + 0.004)),
+        ]
         return steel.piece(union(touch), contact=tuple(touch))
 
     def bread(self, y: float, loaf: Stock, crust: Stock, *, low: float, size: float) -> list[Body]:
