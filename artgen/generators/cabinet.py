@@ -6,15 +6,13 @@ from artgen.articulation.types import Body, Draft, DraftPart
 from artgen.core.surface import SurfaceSpec
 from artgen.generators.kit import cabinet_params
 from artgen.generators.kit.basin import basin, tap
-from artgen.generators.kit.board import Stock
 from artgen.generators.kit.cabinet_design import Design
 from artgen.generators.kit.cabinet_movers import Works, cell_works
 from artgen.generators.kit.cabinet_params import CabinetParams, case_of, layout
 from artgen.generators.kit.carcass import back_panel, case_boards, inner_boards
-from artgen.generators.kit.density import STEEL
+from artgen.generators.kit.case_stand import Leg, case_stand
 from artgen.generators.kit.front_layout import Cell
 from artgen.generators.kit.furniture_make import design_of, stocks_of
-from artgen.generators.kit.stand import STANDS, Stand
 
 PARAMS = CabinetParams
 INVARIANTS = cabinet_params.INVARIANTS
@@ -29,11 +27,12 @@ def build(p: CabinetParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     for number, cell in enumerate(cells, start=1):
         works += cell_works(design, cell, number)
     stocks = design.stocks
+    leg = Leg(height=p.stand_height, inset=p.stand_inset, splay=p.leg_splay, girth=p.leg_girth)
     case = (
         *case_boards(design.case, stocks["case"], stocks["top"]),
         *inner_boards(design.case, separators, stocks["case"]),
         back_panel(design.case, stocks["back"], _cable_holes(p, cells)),
-        *_stand(p, design),
+        *case_stand(design.case, stocks, sort=p.stand, leg=leg),
         *(_basin(p, design) if p.basin and p.kind == "vanity" else ()),
     )
     base = DraftPart(name="base", label="base", bodies=case + works.base)
@@ -64,27 +63,3 @@ def _basin(p: CabinetParams, design: Design) -> tuple[Body, ...]:
     bodies = basin((width, depth, 0.12), place, design.stocks["ceramic"], design.stocks["metal"])
     foot = (0.0, front + depth + 0.045, top)
     return (*bodies, tap(foot, rise=0.25, reach=0.15, metal=design.stocks["metal"]))
-
-
-def _stand(p: CabinetParams, design: Design) -> tuple[Body, ...]:
-    case, stocks = design.case, design.stocks
-    if p.stand == "wall":
-        rail = (case.opening.x0, case.back - 0.0095, case.opening.z1 - 0.05)
-        end = (case.opening.x1, case.back - 0.0065, case.opening.z1 - 0.015)
-        return (stocks["steel"].board(rail, end),)
-    if p.stand == "panel":
-        front, inner = case.front + 0.05, case.opening
-        low = (inner.x0, front, 0.0)
-        return (stocks["case"].board(low, (inner.x1, front + 0.016, case.outside.z0), grain="x"),)
-    stand = Stand(
-        width=p.width,
-        front=case.front,
-        back=case.back,
-        height=p.stand_height,
-        inset=0.045 if p.stand == "plinth" else p.stand_inset,
-        splay=p.leg_splay,
-        girth=p.leg_girth,
-    )
-    wood = stocks["case"] if p.stand == "plinth" else stocks["leg"]
-    metal = Stock(surface="metal", density=STEEL, edge=0.0008)
-    return STANDS[p.stand](stand, wood, metal)

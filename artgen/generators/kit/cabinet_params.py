@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from artgen.generators.kit.cabinet_design import BUMPER
-from artgen.generators.kit.cabinet_hinge import AXIS_AHEAD
 from artgen.generators.kit.cabinet_kinds import KINDS, PATTERNS, Site, columns_of, picked
 from artgen.generators.kit.carcass import Case
 from artgen.generators.kit.front_layout import (
@@ -16,7 +15,7 @@ from artgen.generators.kit.front_layout import (
     Split,
     slice_face,
 )
-from artgen.generators.kit.furniture_make import MILLED, FurnitureMake
+from artgen.generators.kit.furniture_make import MILLED, MOVERS, FurnitureMake, clears_gaps
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,8 +119,7 @@ def _tree(p: CabinetParams, case: Case) -> Node:
 
 def movers(p: CabinetParams) -> int:
     """How many drawers and doors there are, inner drawers counted in full."""
-    each = {"drawer": 1, "door_left": 1, "door_right": 1, "pair": 2, "open": 0}
-    return sum(each[cell.leaf.kind] + cell.leaf.inner for cell in layout(p)[0])
+    return sum(MOVERS[cell.leaf.kind] + cell.leaf.inner for cell in layout(p)[0])
 
 
 def fronts_are_usable(p: CabinetParams) -> bool:
@@ -140,18 +138,8 @@ def fronts_are_usable(p: CabinetParams) -> bool:
 
 
 def doors_clear_their_gap(p: CabinetParams) -> bool:
-    """The free rear corner of a door swings outwards by depth^2 / (2 width); gaps must allow it."""
-    ahead = AXIS_AHEAD if p.inset else 0.0
-    depth = p.front_thickness + ahead
-    for cell in layout(p)[0]:
-        width = (cell.opening if p.inset else cell.cover).width
-        kind = cell.leaf.kind
-        if kind == "pair":
-            width /= 2.0
-        room = p.gap - 0.0005 if p.inset and kind != "pair" else p.gap / 2.0 - 0.0003
-        if kind in ("pair", "door_left", "door_right") and depth**2 / (2.0 * width) > room:
-            return False
-    return True
+    """The free edges of all doors pass what lies beside them."""
+    return clears_gaps(p, layout(p)[0])
 
 
 INVARIANTS: Mapping[str, Callable[[CabinetParams], bool]] = {

@@ -10,8 +10,9 @@ from typing import Literal
 
 import numpy as np
 
-Kind = Literal["drawer", "door_left", "door_right", "pair", "open"]
-"""A drawer, a door hinged at its left or right edge, a pair of doors, an open niche."""
+Kind = Literal["drawer", "door_left", "door_right", "pair", "open", "sliding", "flap"]
+"""A drawer, a door hinged at its left or right edge, a pair of doors, an open niche, doors that
+slide past each other, a flap that falls open."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,14 +1,16 @@
 """How furniture is made, whatever it is: fronts, grips, runners, finishes and their stock."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from artgen.articulation.types import Axis
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.cabinet_design import Design
+from artgen.generators.kit.cabinet_hinge import AXIS_AHEAD
 from artgen.generators.kit.carcass import Case
 from artgen.generators.kit.density import GLASS, MDF, OAK, PARTICLEBOARD, PLYWOOD, STEEL, ZINC
+from artgen.generators.kit.front_layout import Cell, Kind
 from artgen.generators.kit.front_panel import FrontMaker, Style
 from artgen.generators.kit.handle import Handle
 
@@ -23,6 +25,16 @@ FINISHES: Mapping[str, tuple[str, str]] = {
 """Surfaces of the case and of the fronts."""
 MILLED = ("milled", "cut_out")
 """Grips that are part of a plain front."""
+MOVERS: Mapping[Kind, int] = {
+    "drawer": 1,
+    "door_left": 1,
+    "door_right": 1,
+    "pair": 2,
+    "open": 0,
+    "sliding": 2,
+    "flap": 3,
+}
+"""Moving parts of a cell, inner drawers aside; a flap has two stays."""
 CERAMIC = 2300.0
 """Vitreous china, kg/m3."""
 
@@ -115,3 +127,18 @@ def stocks_of(finish: str, *, top: str | None = None) -> dict[str, Stock]:
         "ceramic": Stock(surface="ceramic", density=CERAMIC, edge=0.003),
         "pane": Stock(surface="glass", density=GLASS, edge=0.0),
     }
+
+
+def clears_gaps(make: FurnitureMake, cells: Sequence[Cell]) -> bool:
+    """The free rear corner of a door swings outwards by depth^2 / (2 width); gaps must allow it."""
+    ahead = AXIS_AHEAD if make.inset else 0.0
+    depth = make.front_thickness + ahead
+    for cell in cells:
+        width = (cell.opening if make.inset else cell.cover).width
+        kind = cell.leaf.kind
+        if kind == "pair":
+            width /= 2.0
+        room = make.gap - 0.0005 if make.inset and kind != "pair" else make.gap / 2.0 - 0.0003
+        if kind in ("pair", "door_left", "door_right") and depth**2 / (2.0 * width) > room:
+            return False
+    return True
