@@ -1,6 +1,6 @@
 """Doors that slide past each other between top and bottom tracks, set into an opening."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -9,6 +9,7 @@ from artgen.articulation.types import Body, DraftPart, Grip, Joint, Limit
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.cabinet_movers import Works
 from artgen.generators.kit.front_layout import Rect
+from artgen.generators.kit.front_panel import FrontMaker, Style
 from artgen.geometry.solid import Solid, cylinder, prism, slab, tube
 
 Fill = Literal["panel", "mirror", "glass"]
@@ -54,6 +55,8 @@ class SlidingSet:
         thickness: of the doors, m.
         profile: width of stiles, m.
         friction: N.
+        maker: of doors without a frame.
+        style: of doors without a frame.
         stocks: `front` for panels, `profile`, `track`, `mirror`, `pane`, `metal`.
     """
 
@@ -64,6 +67,8 @@ class SlidingSet:
     profile: float
     friction: float
     doors: tuple[SlidingDoor, ...]
+    maker: FrontMaker
+    style: Style
     stocks: dict[str, Stock]
 
     @property
@@ -162,16 +167,18 @@ def _whole(doors: SlidingSet, door: SlidingDoor) -> Solid:
 
 
 def _board(doors: SlidingSet, door: SlidingDoor) -> tuple[Body, ...]:
-    """A board with a metal cup let in near the edge that is pulled."""
-    whole, face = _whole(doors, door), doors.face(door.track)
+    """A front with a metal cup let in near the edge that is pulled."""
+    face = doors.face(door.track)
+    low, high = _heights(doors)
+    rect = Rect(x0=door.x0, x1=door.x1, z0=low, z1=high)
     x, _, z = _hold(doors, door)
     cup = tube(PULL, PULL - 0.002, 0.012, axis="y", segments=24).at(x, face - 0.0008, z)
     floor = cylinder(PULL, 0.001, axis="y", segments=24).at(x, face + 0.0112, z)
     hole = cylinder(PULL, 0.05, axis="y", segments=24).at(x, face - 0.0378, z)
-    metal = doors.stocks["metal"]
+    fronts = doors.maker.front(doors.style, rect, face + doors.thickness)
     return (
-        doors.stocks["front"].piece(whole - hole, contact=(whole,), grain="z"),
-        metal.piece(cup | floor),
+        *(replace(body, solid=body.solid - hole) for body in fronts),
+        doors.stocks["metal"].piece(cup | floor),
     )
 
 
