@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 
 from artgen.articulation.canonical import canonical_order
+from artgen.articulation.roles import ROLES, Role
 from artgen.articulation.types import Joint
 from artgen.core.errors import RuleError
 from artgen.core.mesh import Floats
@@ -134,7 +135,7 @@ def closed_at_rest(subject: Subject) -> Iterator[Finding]:
     """
     bounds = subject.bounds
     for joint in subject.joints:
-        if joint.limit is None or joint.mimic is not None:
+        if joint.limit is None or joint.mimic is not None or not _closes(subject, joint):
             continue
         if joint.parent not in subject.shapes or joint.child not in subject.shapes:
             continue  # Told where the mesh level lists parts without a mesh.
@@ -191,13 +192,15 @@ def _crosses(pair: list[Mover], poses: Iterable[int], allowed: float) -> bool:
 
 
 def hinges(subject: Subject) -> Iterator[Finding]:
-    """A hinge's axis lies on an edge of its part's box; a slide is no longer than its part."""
+    """A hinge's axis lies on an edge of its part's box, or through it where the part's role allows;
+    what slides out of an opening is no shorter than its way."""
     bounds = subject.bounds
     for joint in subject.joints:
         if joint.child not in subject.meshes:
             continue  # Told where the mesh level lists parts without a mesh.
         box = subject.boxes[joint.child]
-        if joint.type == "prismatic" and joint.limit is not None:
+        role = role_at(subject, joint.child)
+        if joint.type == "prismatic" and joint.limit is not None and _closes(subject, joint):
             length = float(np.abs(joint.axis) @ np.diff(box, axis=0)[0])
             share = (joint.limit.upper - joint.limit.lower) / length
             if share > bounds.travel.value:
@@ -206,14 +209,28 @@ def hinges(subject: Subject) -> Iterator[Finding]:
                     "semantics.travel", joint, share, bounds.travel.at_most(), cause, remedy
                 )
         elif joint.type == "revolute":
-            distance = edge_distance(box, np.array(joint.axis), np.array(joint.origin))
+            measure = edge_distance if role is None or role.edged else outside_distance
+            distance = measure(box, np.array(joint.axis), np.array(joint.origin))
             diagonal = float(np.linalg.norm(np.diff(box, axis=0)))
             allowed = bounds.hinge_share.value * diagonal + bounds.hinge_slack.value
             if distance is not None and distance > allowed:
-                cause, remedy = "the pivot lies off the part's edge", "check the joint's origin"
+                where = "off the part's edge" if measure is edge_distance else "beside the part"
+                cause, remedy = f"the pivot lies {where}", "check the joint's origin"
                 yield _hinge_finding(
                     "semantics.hinge", joint, distance, f"<= {allowed:.4g} m", cause, remedy
                 )
+
+
+def role_at(subject: Subject, part: str) -> Role | None:
+    """The role of a part of ours; None in foreign assets, whose names promise nothing."""
+    if not isinstance(subject, BundleSubject):
+        return None
+    return next((ROLES.get(p.label) for p in subject.parts if p.name == part), None)
+
+
+def _closes(subject: Subject, joint: Joint) -> bool:
+    role = role_at(subject, joint.child)
+    return role is None or role.closes
 
 
 def rests(subject: Subject) -> Iterator[Finding]:
@@ -252,6 +269,17 @@ def _hinge_finding(
         cause=cause,
         remedy=remedy,
     )
+
+
+def outside_distance(box: Floats, axis: Floats, origin: Floats) -> float | None:
+    """From a line along a coordinate axis to a box, m; 0 if it passes through, None if tilted."""
+    along = int(np.argmax(np.abs(axis)))
+    if abs(axis[along]) < 1.0 - 1e-9:
+        return None
+    others = [k for k in range(3) if k != along]
+    low, high = box[:, others]
+    gap = np.maximum(low - origin[others], origin[others] - high).clip(min=0.0)
+    return float(np.linalg.norm(gap))
 
 
 def edge_distance(box: Floats, axis: Floats, origin: Floats) -> float | None:
