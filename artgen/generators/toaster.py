@@ -2,19 +2,22 @@
 
 from collections.abc import Callable, Mapping
 
-from artgen.articulation.types import Body, Draft, DraftPart, Grip, Joint, Latch, Limit, Mimic
+from artgen.articulation.types import (
+    Body,
+    Draft,
+    DraftPart,
+)
 from artgen.core.surface import SurfaceSpec, srgb_hex
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.cord import cord_stub
 from artgen.generators.kit.density import ABS, STEEL
 from artgen.generators.kit.dial import Dial
-from artgen.generators.kit.press_lever import FLANGE, PressLever
 from artgen.generators.kit.printed import plate, printed, words
 from artgen.generators.kit.push_button import PushButton
 from artgen.generators.kit.quarter_turn import turned_joint, turned_part
 from artgen.generators.kit.toaster_design import ToasterParams
-from artgen.generators.kit.toaster_face import PLATE
+from artgen.generators.kit.toaster_works import toaster_works
 from artgen.textures.appliance_panel import BRANDS
 
 PARAMS = ToasterParams
@@ -28,29 +31,18 @@ BADGE = (0.050, 0.012)
 
 def build(p: ToasterParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     """At rest the levers are up and the tray is in; the bread goes down with its lever."""
-    shell, face = p.shell, p.control_face
+    face, trim = p.control_face, "metal" if p.style == "retro" else "trim"
     dials = face.make_dials(p.dial_radius, p.dial_height, p.dial)
     buttons = face.make_buttons(round_caps=p.round_caps, force=2.0)
-    thumb, stem = _stock("trim" if p.style != "retro" else "metal", ABS), _stock("inner", STEEL)
-    levers = [_lever(p, k) for k in range(len(p.served))]
+    works, joints = toaster_works(p, trim)
     parts = [
         _base(p, dials, buttons),
-        DraftPart(name="crumb_tray", label="tray", bodies=shell.tray(stem, _stock("trim", ABS)),
-                  grips=(_tray_grip(p),)),
-        *(lever.part(thumb, stem) for lever in levers),
-        *(_carriage(p, k, lever.name) for k, lever in enumerate(levers)),
-        *(dial.part(face.plane, "trim" if p.style != "retro" else "metal", "mark", density=ABS)
-          for dial in dials),
-        *(button.part(face.plane, "trim" if p.style != "retro" else "metal", density=ABS)
-          for button in buttons),
-    ]  # fmt: skip
-    joints = [
-        _tray_joint(p),
-        *(lever.joint(parent="base") for lever in levers),
-        *(_lift(p, lever) for lever in levers),
-        *(dial.joint(face.plane, parent="base") for dial in dials),
-        *(button.joint(face.plane, parent="base") for button in buttons),
+        *works,
+        *(dial.part(face.plane, trim, "mark", density=ABS) for dial in dials),
+        *(button.part(face.plane, trim, density=ABS) for button in buttons),
     ]
+    joints += [dial.joint(face.plane, parent="base") for dial in dials]
+    joints += [button.joint(face.plane, parent="base") for button in buttons]
     if p.face != "broad":
         parts, joints = [turned_part(x) for x in parts], [turned_joint(x) for x in joints]
     specs = (*surfaces.values(), *_prints(p, surfaces, dials))
@@ -81,8 +73,8 @@ def _base(p: ToasterParams, dials: list[Dial], buttons: list[PushButton]) -> Dra
                         rows=p.rows, guards=p.guards * (2 if p.form.startswith("long") else 1)),
         face.cover(dials, buttons, radius=0.006, sunk=0.003 if p.style == "wrap" else 0.0005),
         _badge(p),
-        cord_stub((-shell.end + 0.001, p.width / 2.0 - shell.corner - 0.010, shell.bottom + 0.014),
-                  out=(-1.0, 0.0, 0.0), surface="rubber", run=0.03),
+        cord_stub((0.014 + shell.corner - shell.end, p.width / 2.0 - 0.001, shell.bottom + 0.012),
+                  out=(0.0, 1.0, 0.0), surface="rubber", run=0.025),
     ]  # fmt: skip
     return DraftPart(name="base", label="base", bodies=tuple(bodies))
 
@@ -105,86 +97,13 @@ def _prints(
     brand = BRANDS[p.brand]
     panel = p.control_face.print(
         dials, background=srgb_hex(tone.color), ink=INK[0 if light else 1], brand=brand,
-        lit="#ff7a2a", metallic=tone.metallic,
+        metallic=tone.metallic,
     )  # fmt: skip
     name = [words((BADGE[0] / 2.0, BADGE[1] / 2.0), brand, cap=0.0058, ink=INK[0])]
     badge = printed("badge", BADGE, background="#c9cacb", marks=name, roughness=0.25, metallic=1.0)
     pale = sum(surfaces["trim"].color) / 3.0 > 0.18 or p.style == "retro"
     mark = SurfaceSpec(name="mark", recipe="plain", color=(0.5, 0.02, 0.01) if pale else (0.8,) * 3)
     return panel, badge, mark
-
-
-def _lever(p: ToasterParams, k: int) -> PressLever:
-    return PressLever(
-        name="lever" if len(p.served) == 1 else f"lever_{k + 1}",
-        face=p.shell.end,
-        y=p.lever_places[k],
-        z=p.height - p.lever_drop,
-        travel=p.travel,
-        style=p.lever,
-        gap=PLATE + 0.0015,
-        size=p.lever_size,
-        preload=p.preload,
-    )
-
-
-def _carriage(p: ToasterParams, k: int, lever: str) -> DraftPart:
-    """The racks under the bread, and the bread."""
-    chamber, served = p.chamber, p.served[k]
-    tip = p.shell.end - FLANGE[1] - 0.0015
-    rack = chamber.carriage(served, _stock("inner", STEEL, 0.0), low=p.lifted,
-                            tongue=(p.lever_places[k], p.height - p.lever_drop, tip))  # fmt: skip
-    slices = [
-        body
-        for y in served[: p.slices]
-        for body in chamber.bread(y, Stock(surface="crumb", density=260.0, edge=0.0),
-                                  Stock(surface="crust", density=300.0, edge=0.0012),
-                                  low=p.lifted + 0.009, size=0.108)
-    ]  # fmt: skip
-    return DraftPart(name=f"{lever}_carriage", label="pusher", bodies=(rack, *slices))
-
-
-def _lift(p: ToasterParams, lever: PressLever) -> Joint:
-    """The carriage goes down with its lever."""
-    return Joint(
-        name=f"{lever.name}_carriage_lift",
-        type="prismatic",
-        parent="base",
-        child=f"{lever.name}_carriage",
-        axis=(0.0, 0.0, -1.0),
-        limit=Limit(lower=0.0, upper=p.travel * p.lift_ratio),
-        friction=0.5,
-        damping=2.0,
-        effort=60.0,
-        mimic=Mimic(joint=f"{lever.name}_press", multiplier=p.lift_ratio),
-    )
-
-
-def _tray_joint(p: ToasterParams) -> Joint:
-    """Out of the side away from the levers by +q."""
-    return Joint(
-        name="crumb_tray_slide",
-        type="prismatic",
-        parent="base",
-        child="crumb_tray",
-        axis=(-1.0, 0.0, 0.0),
-        limit=Limit(lower=0.0, upper=0.85 * (p.chamber.front + p.shell.end)),
-        friction=1.5,
-        damping=2.0,
-        effort=20.0,
-        latch=Latch(force=3.0, reach=0.006),
-    )
-
-
-def _tray_grip(p: ToasterParams) -> Grip:
-    at = (-p.shell.end - 0.008, 0.0, p.foot + 0.007)
-    return Grip(
-        name="crumb_tray_pull",
-        kind="edge",
-        position=at,
-        outward=(-1.0, 0.0, 0.0),
-        pull=(-1.0, 0.0, 0.0),
-    )
 
 
 def controls_fit_the_face(p: ToasterParams) -> bool:

@@ -101,7 +101,7 @@ class BreadChamber:
         return [*(slab((x0, a, low), (x1, b, high)) for a, b in between), *ends]
 
     def inside(self, mica: Stock, glow: str, steel: Stock, *, rows: int, guards: int) -> list[Body]:
-        """Boards, the wire wound on them and the guards before them."""
+        """A sheet liner, boards, the wire wound on them and the guards before them."""
         x0, x1 = self.slot_x
         low, high = self.floor + 0.006, self.top - self.lip
         boards = [
@@ -111,7 +111,15 @@ class BreadChamber:
         wires = union(self._windings(rows, (low + 0.012, high - 0.012)))
         winding = Body(solid=wires, surface=glow, density=8400.0)
         bars = steel.piece(union(self._guards(guards, (low, high))))
-        return [*boards, winding, bars]
+        return [*self._liner(steel), *boards, winding, bars]
+
+    def _liner(self, steel: Stock) -> list[Body]:
+        """The walls at the sides and at the end away from the lever."""
+        low, high, wall = self.floor + 0.003, self.top - self.lip, 0.001
+        return [
+            steel.piece(slab((self.back, y, low), (self.front, y + wall, high)))
+            for y in (-self.half, self.half - wall)
+        ] + [steel.piece(slab((self.back, -self.half, low), (self.back + wall, self.half, high)))]
 
     def _boards(self) -> list[float]:
         pitch = self.slot_width + self.gap
@@ -162,16 +170,16 @@ class BreadChamber:
             xs = np.linspace(x0 + 0.006, self.slot_x[1] - 0.006, 5 + 3 * (self.slot_length > 0.2))
             half = self.slot_width / 2.0 - CRUST
             touch += [
-                slab((x - 0.001, y - half, low + 0.006), (x + 0.001, y + half, low + 0.009))
+                slab((x - 0.001, y - half, low + 0.0062), (x + 0.001, y + half, low + 0.0088))
                 for x in xs.tolist()
             ]
         y, z, tip = tongue
         y0, y1 = min(*served, y) - 0.0045, max(*served, y) + 0.0045
-        post = (min(low, z - 0.004), max(low + 0.009, z + 0.004))
+        post = (min(low, z) + 0.001, max(low, z) + 0.0034)
         touch += [
-            slab((bar[0], y0, low), (bar[1], y1, low + 0.009)),
-            slab((bar[0], y - 0.0045, post[0]), (bar[1], y + 0.0045, post[1])),
-            slab((bar[0], y - 0.0045, z - 0.004), (tip, y + 0.0045, z + 0.004)),
+            slab((bar[0], y0, low + 0.0003), (bar[1], y1, low + 0.0086)),
+            slab((bar[0] + 0.0003, y - 0.0041, post[0]), (bar[1] - 0.0003, y + 0.0041, post[1])),
+            slab((bar[0] + 0.0006, y - 0.0045, z - 0.004), (tip, y + 0.0045, z + 0.004)),
         ]
         return steel.piece(union(touch), contact=tuple(touch))
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from artgen.articulation.types import Body, DraftPart, Grip, Joint, Limit
 from artgen.generators.kit.control_console import PanelPlane
-from artgen.geometry.profile import circle
 from artgen.geometry.solid import Solid, cone, cylinder, prism, slab, union
 
 SHAFT, PLAY, GAP = 0.0030, 0.0006, 0.0010
@@ -51,7 +50,6 @@ class Dial:
         knob = union([_FORMS[self.style](self.radius, self.height - base).at(0.0, 0.0, base),
                       cylinder(SHAFT, base + 0.009, segments=12).at(0.0, 0.0, -0.008)])  # fmt: skip
         tip = self._pointer()
-        touch = prism(circle(self.radius, segments=12), self.height - base).at(0.0, 0.0, base)
         return DraftPart(
             name=self.name,
             label="dial",
@@ -61,7 +59,7 @@ class Dial:
                     surface=surface,
                     density=density,
                     edge=0.0005 if self.style != "ribbed" else 0.0,
-                    collision=(self._placed(plane, touch),),
+                    collision=tuple(self._placed(plane, piece) for piece in self._touch(base)),
                 ),
                 Body(solid=self._placed(plane, tip), surface=mark, density=density),
             ),
@@ -88,17 +86,28 @@ class Dial:
             origin=plane.point(*self.center),
             limit=Limit(lower=0.0, upper=self.sweep),
             friction=self.friction,
-            damping=0.002,
+            damping=0.004,
             effort=1.0,
-            velocity=6.0,
+            velocity=3.0,
         )
 
     def _placed(self, plane: PanelPlane, solid: Solid) -> Solid:
         return plane.placed(solid.at(*self.center, 0.0))
 
+    def _touch(self, base: float) -> list[Solid]:
+        """Three boxes whose corners lie on the rim."""
+        halves = ((0.92, 0.39), (0.39, 0.92), (0.70, 0.70))
+        return [
+            slab(
+                (-a * self.radius, -b * self.radius, base),
+                (a * self.radius, b * self.radius, self.height),
+            )
+            for a, b in halves
+        ]
+
     def _pointer(self) -> Solid:
         """A stripe on the knob's top, drawn along its radius."""
-        low, high = 0.42 * self.radius, 0.84 * self.radius
+        low, high = 0.30 * self.radius, 0.72 * self.radius
         half, top = max(0.0007, 0.05 * self.radius), self.height
         stripe = slab((low, -half, top - 0.0012), (high, half, top + 0.0004))
         return stripe.turned("z", self.start)

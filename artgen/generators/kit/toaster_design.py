@@ -15,6 +15,8 @@ from artgen.generators.kit.toaster_shell import PLINTH, POCKET, LeverWay, Toaste
 
 SLOTS = {"two": 2, "four": 4, "long": 1, "long_two": 2}
 """How many."""
+LONG_MARGIN = 0.016
+"""m; toasters with a single slot are not much narrower than others."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +76,8 @@ class ToasterParams:
     @property
     def width(self) -> float:
         """Across the slots, m."""
-        return 2.0 * (self.chamber.middles[-1] + self.slot_width / 2.0 + self.margin)
+        beside = self.margin + (LONG_MARGIN if self.form == "long" else 0.0)
+        return 2.0 * (self.chamber.middles[-1] + self.slot_width / 2.0 + beside)
 
     @property
     def lifted(self) -> float:
@@ -91,7 +94,7 @@ class ToasterParams:
             LeverWay(
                 y=y,
                 slit=(z - self.travel - 0.0042, z + 0.0042),
-                channel=(z - self.travel - 0.0073, z + 0.0073),
+                channel=(z - self.travel - 0.0086, z + 0.0086),
             )
             for y in self.lever_places
         )
@@ -117,7 +120,8 @@ class ToasterParams:
     def lever_places(self) -> tuple[float, ...]:
         """y of the levers."""
         if self.face == "divided" and self.form != "four":
-            return (0.27 * (self.width - 2.0 * self.corner),)
+            aside = 0.27 * (self.width - 2.0 * self.corner)
+            return (min(aside, self.chamber.half - 0.0065),)
         return tuple(sum(group) / len(group) for group in self.served)
 
     @property

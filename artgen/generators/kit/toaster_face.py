@@ -9,12 +9,10 @@ from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.dial import Dial, DialStyle
 from artgen.generators.kit.printed import (
     dial_scale,
-    disc,
     icon,
     line,
     plate,
     printed,
-    ring,
     words,
 )
 from artgen.generators.kit.push_button import PushButton
@@ -117,10 +115,9 @@ class ToasterFace:
         background: str,
         ink: str,
         brand: str,
-        lit: str,
         metallic: float,
     ) -> SurfaceSpec:
-        """Scales, words under the buttons, the brand, and a lamp beside the first button."""
+        """Scales, words under the buttons, and the brand."""
         marks: list[str] = []
         for dial in dials:
             names = [str(k + 1) for k in range(6)]
@@ -143,14 +140,11 @@ class ToasterFace:
             marks.append(icon((u + 0.0075, low - 0.004), "sun", size=0.004, ink=ink))
         if self.brand is not None:
             marks.append(words(self.brand, brand, cap=0.0045, ink=ink))
-        lamp = self.keys[0][0], self.keys[0][1] + 0.0085
-        marks.append(ring(lamp, 0.0014, width=0.0003, ink=ink))
         return printed(
             "panel",
             self.plane.size,
             background=background,
             marks=marks,
-            lit=[disc(lamp, 0.0010, ink=lit)],
             roughness=0.32,
             metallic=metallic,
         )
@@ -187,7 +181,8 @@ def stacked_face(
         split = 0.0105 if buttons > 2 else 0.0
         keys = tuple((half + a * reach, dial_v + b * split + 0.002) for a, b in sides)
     slits = tuple((y + half, a - low, b - low) for y, a, b in levers) if full else ()
-    brand = (half, top - low - 0.006) if full else None
+    room = high - max(lever[2] for lever in levers)
+    brand = (half, top - low - 0.006) if full and room > 0.024 else None
     return ToasterFace(plane=plane, dials=dials, keys=keys, slits=slits, brand=brand)
 
 

@@ -1,5 +1,6 @@
 """A toaster's body: shell or steel wrap with end caps, plinth, feet, top plate, lever channels."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -16,6 +17,8 @@ POCKET = (0.003, 0.017)
 """m above the feet; the crumb tray's room."""
 PLINTH = 0.021
 """m above the feet; top of the plinth."""
+CHANNEL = 0.009
+"""m; half of a channel's width."""
 WRAP = 0.0012
 """m; by which a steel wrap lies behind its end caps."""
 
@@ -97,6 +100,8 @@ class ToasterShell:
             covers[0] = shell.piece(covers[0].solid, contact=touch, grain="x")
         else:
             covers = [shell.piece(outside - room, contact=touch)]
+        liner = Stock(surface=caps.surface, density=200.0, edge=0.0)
+        covers += [liner.piece(tube) for tube in self._channel_liners()]
         return (*covers, self._plinth(plinth), self._top_plate(metal), *self._feet(rubber, plinth))
 
     def tray(self, pan: Stock, front: Stock) -> tuple[Body, ...]:
@@ -141,8 +146,8 @@ class ToasterShell:
             inner = self.end - FACE
             room.append(
                 slab(
-                    (self.chamber.front - 0.002, way.y - 0.008, way.channel[0]),
-                    (inner, way.y + 0.008, way.channel[1]),
+                    (self.chamber.front - 0.002, way.y - CHANNEL, way.channel[0]),
+                    (inner, way.y + CHANNEL, way.channel[1]),
                 )
             )
             room.append(
@@ -152,6 +157,19 @@ class ToasterShell:
                 )
             )
         return room
+
+    def _channel_liners(self) -> list[Solid]:
+        """Dark walls of the channels, so that the slits do not show the shell's color."""
+        x0, x1, wall = self.chamber.front + 0.001, self.end - FACE + 0.001, 0.0012
+        return [
+            slab((x0, way.y - CHANNEL, way.channel[0]), (x1, way.y + CHANNEL, way.channel[1]))
+            - slab(
+                (x0 - 1.0, way.y - CHANNEL + wall, way.channel[0] + wall),
+                (x1 - wall, way.y + CHANNEL - wall, way.channel[1] - wall),
+            )
+            - slab((x0, way.y - 0.0037, way.slit[0]), (x1 + 1.0, way.y + 0.0037, way.slit[1]))
+            for way in self.ways
+        ]
 
     def _plinth(self, stock: Stock) -> Body:
         outline = plan(
@@ -205,43 +223,62 @@ class ToasterShell:
         return feet
 
     def _panels(self) -> list[Solid]:
-        """Convex pieces of the shell around chamber, channels and slits."""
+        """Convex pieces of the shell around chamber, channels and slits: hulls at the corners,
+        boxes between."""
         c, low, top, side = self.chamber, self.bottom, self.chamber.top, self.width / 2.0
         hull = self._loft(0.0)
-        cells = [
-            slab((-self.end, -side, low), (c.back, side, top)),
-            slab((c.back, -side, low), (c.front, -c.half, top)),
-            slab((c.back, c.half, low), (c.front, side, top)),
-            *c.strips(),
-            *self._front_cells(),
-        ]
-        return [cell if _inside(cell, hull) else hull & cell for cell in cells]
+        spared = spared_corner(self.crown)
+        walls = []
+        for outer, inner in ((top - spared, side), (top, side - spared)):
+            walls += [
+                slab((c.back, -inner, low), (c.front, -c.half, outer)),
+                slab((c.back, c.half, low), (c.front, inner, outer)),
+            ]
+        rear = slab((-self.end, -side, low), (c.back, side, top))
+        corners = [rear, *self._front_corners()]
+        return [*(hull & cell for cell in corners), *walls, *c.strips(), *self._front_cells()]
+
+    def _front_corners(self) -> list[Solid]:
+        """Left and right of all channels."""
+        x0, x1, side, low, top = (
+            self.chamber.front,
+            self.end,
+            self.width / 2.0,
+            self.bottom,
+            self.chamber.top,
+        )
+        left, right = self.ways[0].y - CHANNEL, self.ways[-1].y + CHANNEL
+        return [slab((x0, -side, low), (x1, left, top)), slab((x0, right, low), (x1, side, top))]
 
     def _front_cells(self) -> list[Solid]:
         """The end between chamber and face, around each channel and slit."""
-        x0, x1, side = self.chamber.front, self.end, self.width / 2.0
+        x0, x1 = self.chamber.front, self.end
         low, top, inner = self.bottom, self.chamber.top, self.end - FACE
+        under = top - spared_corner(self.crown)
         cells = []
-        left = -side
+        left = self.ways[0].y - CHANNEL
         for way in self.ways:
-            a, b, (s0, s1), (c0, c1) = way.y - 0.008, way.y + 0.008, way.slit, way.channel
+            a, b, (s0, s1), (c0, c1) = way.y - CHANNEL, way.y + CHANNEL, way.slit, way.channel
+            if a > left:
+                cells.append(slab((x0, left, low), (x1, a, under)))
             cells += [
-                slab((x0, left, low), (x1, a, top)),
                 slab((x0, a, low), (inner, b, c0)),
-                slab((x0, a, c1), (inner, b, top)),
+                slab((x0, a, c1), (inner, b, under)),
                 slab((inner, a, low), (x1, b, s0)),
-                slab((inner, a, s1), (x1, b, top)),
+                slab((inner, a, s1), (x1, b, under)),
                 slab((inner, a, s0), (x1, way.y - 0.0037, s1)),
                 slab((inner, way.y + 0.0037, s0), (x1, b, s1)),
             ]
             left = b
-        return [*cells, slab((x0, left, low), (x1, side, top))]
+        return cells
 
 
 def _from(a: float, b: float) -> Solid:
     return slab((a, -1.0, -1.0), (b, 1.0, 1.0))
 
 
-def _inside(cell: Solid, hull: Solid) -> bool:
-    """Whether a box lies wholly in the shell, so that it stays a box."""
-    return (cell - hull).volume < 1e-10
+def spared_corner(radius: float) -> float:
+    """How far from a corner rounded by `radius` a box may begin so that it sticks out by 3.5 mm at
+    most: (radius - d)^2 + radius^2 = (radius + 3.5 mm)^2."""
+    reach = math.sqrt(0.007 * radius + 0.0035**2)
+    return max(0.0, radius - reach)
