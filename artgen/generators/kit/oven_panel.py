@@ -1,0 +1,216 @@
+"""Control panels of small ovens, upright beside the door or lying above it: what they carry, how
+it is printed, and the dials and buttons that stand on them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from artgen.articulation.types import Body, DraftPart, Joint
+from artgen.core.surface import SurfaceSpec, srgb_hex
+from artgen.generators.kit.control_console import PanelPlane
+from artgen.generators.kit.density import ABS
+from artgen.generators.kit.dial import Dial, DialStyle
+from artgen.generators.kit.printed import (
+    Point,
+    area,
+    dial_scale,
+    digits,
+    icon,
+    plate,
+    printed,
+    words,
+)
+from artgen.generators.kit.push_button import PushButton
+from artgen.geometry.solid import Solid
+from artgen.textures.appliance_panel import BRANDS, LED
+
+CELLS: Mapping[str, Mapping[str, float]] = {
+    "keypad": {"brand": 0.9, "display": 1.5, "keys": 4.6, "buttons": 1.3},
+    "dials": {"brand": 1.0, "dial_1": 3.2, "dial_2": 3.2},
+    "jog": {"brand": 0.9, "display": 1.5, "keys": 1.7, "dial_1": 2.7, "buttons": 1.3},
+}
+"""What a panel carries from its upper or left end, and how much of its length each takes."""
+RELEASE = 1.5
+SCALES = (("100", "300", "450", "600", "800"), ("0", "5", "10", "15", "20", "25", "30"))
+"""W and minutes."""
+KEYS = ("POPCORN", "PIZZA", "POTATO", "REHEAT", "DEFROST", "1", "2", "3", "4", "5", "6", "7", "8",
+        "9", "CLOCK", "0", "POWER", "TIMER")  # fmt: skip
+GLYPHS = ("play", "pause", "clock", "lock")
+PLATE = 0.0012
+"""m; thickness of the printed foil as drawn, half of it inside the panel."""
+SUNK = 0.0006
+
+
+@dataclass(frozen=True, kw_only=True)
+class OvenPanel:
+    """A panel's face and what is on it.
+
+    Attributes:
+        plane: its face.
+        kind: key of `CELLS`.
+        buttons: that are pressed, in the cell `buttons`.
+        release: whether a large button at its end opens the door.
+        dial: form of the dials.
+        dial_share: radius of a dial as a share of its cell.
+        brand: index of the brand's word.
+        time: shown by the display.
+        led: color of the display.
+    """
+
+    plane: PanelPlane
+    kind: str
+    buttons: int
+    release: bool
+    dial: DialStyle
+    dial_share: float
+    brand: int
+    time: str
+    led: str
+
+    @property
+    def upright(self) -> bool:
+        """Higher than wide."""
+        return self.plane.size[1] > self.plane.size[0]
+
+    @cached_property
+    def cells(self) -> dict[str, tuple[Point, Point]]:
+        """Name to (center, size) on the face."""
+        shares = dict(CELLS[self.kind]) | ({"release": RELEASE} if self.release else {})
+        along, across = max(self.plane.size), min(self.plane.size)
+        ends = np.cumsum([0.0, *shares.values()]) / sum(shares.values()) * along
+        cells = {}
+        for name, low, high in zip(shares, ends[:-1], ends[1:], strict=True):
+            middle, length = float(low + high) / 2.0, float(high - low)
+            if self.upright:
+                cells[name] = ((across / 2.0, along - middle), (across, length))
+            else:
+                cells[name] = ((middle, across / 2.0), (length, across))
+        return cells
+
+    @cached_property
+    def dials(self) -> list[Dial]:
+        """Knobs on their shafts."""
+        found = []
+        for name, (center, size) in self.cells.items():
+            if name.startswith("dial"):
+                radius = self.dial_share * min(size)
+                found.append(
+                    Dial(name=name if self.kind == "dials" else "dial", center=center,
+                         radius=radius, height=0.6 * radius + 0.008, style=self.dial,
+                         lift=PLATE - SUNK)
+                )  # fmt: skip
+        return found
+
+    @cached_property
+    def push_buttons(self) -> list[PushButton]:
+        """Buttons in a row, and the release."""
+        made = []
+        if "buttons" in self.cells:
+            (u, v), (w, h) = self.cells["buttons"]
+            pitch, size = 0.86 * w / self.buttons, min(0.014, 0.42 * h)
+            for k in range(self.buttons):
+                x = u + (k - (self.buttons - 1) / 2.0) * pitch
+                made.append(
+                    PushButton(name=f"button_{k + 1}", center=(x, v - 0.14 * h),
+                               size=(min(0.8 * pitch, 3.0 * size), size), proud=0.003)
+                )  # fmt: skip
+        if self.release:
+            center, (w, h) = self.cells["release"]
+            made.append(
+                PushButton(name="release_button", center=center, size=(0.80 * w, 0.66 * h),
+                           proud=0.0045, travel=0.004, depth=0.005, force=9.0)
+            )  # fmt: skip
+        return made
+
+    def cut(self, block: Solid) -> Solid:
+        """The panel's block with room for shafts and caps."""
+        for hole in self._holes:
+            block = block - self.plane.placed(hole)
+        return block
+
+    def foil(self) -> Body:
+        """The printed face."""
+        return plate(self.plane, "panel_print", density=ABS, thickness=PLATE, radius=0.003,
+                     sunk=SUNK, holes=self._holes)  # fmt: skip
+
+    def parts(self, knob: str, mark: str, cap: str) -> list[DraftPart]:
+        """Dials and buttons."""
+        return [
+            *(dial.part(self.plane, knob, mark, density=ABS) for dial in self.dials),
+            *(button.part(self.plane, cap, density=ABS) for button in self.push_buttons),
+        ]
+
+    def joints(self) -> list[Joint]:
+        """Theirs."""
+        movers: Sequence[Dial | PushButton] = [*self.dials, *self.push_buttons]
+        return [mover.joint(self.plane, parent="base") for mover in movers]
+
+    def print(self, face: SurfaceSpec) -> SurfaceSpec:
+        """The surface of the foil, printed on the color of `face`."""
+        light = sum(face.color) / 3.0 > 0.18
+        ink = "#26282b" if light else "#e4e6e8"
+        marks = [self._brand(ink), *self._dial_marks(ink), *self._button_marks(ink)]
+        lit: list[str] = []
+        if "keys" in self.cells:
+            marks += self._key_marks(ink, line="#8d9094" if light else "#6a6e73")
+        if "display" in self.cells:
+            (u, v), (w, h) = self.cells["display"]
+            half, tall = (0.42 * w, 0.34 * h), 0.36 * min(h, 0.42 * w)
+            marks.append(
+                area((u - half[0], v - half[1]), (u + half[0], v + half[1]), ink="#050607",
+                     radius=0.002)
+            )  # fmt: skip
+            start = (u - 0.30 * len(self.time) * tall, v - tall / 2.0)
+            lit.append(digits(start, self.time, height=tall, ink=LED[self.led]))
+        return printed(
+            "panel_print", self.plane.size, background=srgb_hex(face.color), marks=marks, lit=lit,
+            roughness=max(0.16, face.roughness), metallic=face.metallic,
+        )  # fmt: skip
+
+    @cached_property
+    def _holes(self) -> list[Solid]:
+        return [
+            *(dial.hole() for dial in self.dials),
+            *(button.well() for button in self.push_buttons),
+        ]
+
+    def _brand(self, ink: str) -> str:
+        (u, v), (w, h) = self.cells["brand"]
+        return words((u, v), BRANDS[self.brand], cap=min(0.10 * w, 0.38 * h, 0.011), ink=ink)
+
+    def _dial_marks(self, ink: str) -> list[str]:
+        marks = []
+        for dial, scale in zip(self.dials, SCALES, strict=False):
+            cap = min(0.0042, 0.13 * dial.radius)
+            marks += dial_scale(dial.center, dial.radius + 0.0025, scale, cap=cap, ink=ink,
+                                start=dial.start, sweep=dial.sweep)  # fmt: skip
+        return marks
+
+    def _button_marks(self, ink: str) -> list[str]:
+        marks = []
+        for button, glyph in zip(self.push_buttons, GLYPHS, strict=False):
+            if button.name == "release_button":
+                continue
+            (u, v), (_, h) = button.center, button.size
+            marks.append(icon((u, v + 1.05 * h), glyph, size=min(0.007, 0.7 * h), ink=ink))
+        return marks
+
+    def _key_marks(self, ink: str, *, line: str) -> list[str]:
+        """A membrane keypad: as many cells as fit at 17 x 11 mm or so."""
+        (u, v), (w, h) = self.cells["keys"]
+        columns = max(2, min(6, int(w / 0.027)))
+        rows = max(1, min(6, int(h / 0.016), -(-len(KEYS) // columns)))
+        du, dv = 0.90 * w / columns, 0.94 * h / rows
+        marks = []
+        for k in range(columns * rows):
+            x = u + (k % columns - (columns - 1) / 2.0) * du
+            y = v + ((rows - 1) / 2.0 - k // columns) * dv
+            half = (0.44 * du, 0.40 * dv)
+            marks.append(area((x - half[0], y - half[1]), (x + half[0], y + half[1]), ink=line,
+                              radius=0.002))  # fmt: skip
+            text = KEYS[k % len(KEYS)]
+            cap = min(0.42 * dv, 0.0046 if len(text) < 3 else 0.12 * du)
+            marks.append(words((x, y), text, cap=cap, ink="#f4f5f6" if ink != "#26282b" else ink))
+        return marks
