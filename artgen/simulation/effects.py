@@ -23,6 +23,10 @@ PROMISE = 1e-6
 NEGLIGIBLE = 1e-9
 """Load on a joint, as a share of the weight times the size of what it carries, that counts as none:
 rounding of positions of 1 m is 1e-16, and poses of a tilted axis were read from 17 digits."""
+STILL = 1e-7
+"""rad/s2 or m/s2; what a load may accelerate and still count as none: in the 2 s of the longest
+check it moves a joint by 2e-7, less than the 1e-6 asked for. A light knob on a heavy door turns
+under loads that are negligible beside the door's weight."""
 
 
 class Effect(Enum):
@@ -164,7 +168,7 @@ class _Loads:
         moving = np.zeros(model.nv) if task.velocity is None else np.abs(task.velocity)
         thrown = moving > 0.0
         pushed = np.isin(np.arange(model.nv), list(task.driven))
-        loaded = np.abs(at_start) > self.scale
+        loaded = np.abs(at_start) > np.minimum(self.scale, STILL * model.dof_M0)
         self.loaded = loaded
         self.stirring = _with_their_trees(model, thrown | pushed | loaded)
 

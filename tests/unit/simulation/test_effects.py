@@ -148,3 +148,21 @@ def test_a_path_that_diverges_agrees_with_nothing() -> None:
     assert path_difference(model, path, path) == 0.0
     assert path_difference(model, path, np.full((3, 1), np.nan)) == np.inf
     assert agreement(model, task, seconds=0.5).holds
+
+
+def test_a_light_knob_on_a_heavy_door_is_held_by_its_friction() -> None:
+    """A load of 1e-9 of the door's weight turned a knob of 1e-8 kg m2 by 4e-6 rad in two seconds
+    while its friction was left off."""
+    model = mujoco.MjModel.from_xml_string(
+        f"<mujoco><worldbody><body><joint {VERTICAL} frictionloss='1'/>"
+        "<inertial pos='0.5 0 0' mass='100' diaginertia='9 9 9'/>"
+        "<body pos='1 0 0'><joint type='hinge' axis='0 1 0' frictionloss='0.01'/>"
+        "<inertial pos='2e-6 0 0' mass='0.001' diaginertia='1e-8 1e-8 1e-8'/></body>"
+        "</body></worldbody></mujoco>"
+    )
+    effects = needed_effects(model, Task(name="settle", start=np.zeros(2), clear=True))
+    assert Effect.FRICTION in effects.needed
+    data = mujoco.MjData(model)
+    with only(model, effects):
+        mujoco.mj_step(model, data, nstep=1000)
+    assert np.abs(data.qpos).max() <= 1e-6
