@@ -11,6 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from artgen.articulation.roles import ROLES, Role
 from artgen.articulation.types import Joint, Precondition
 from artgen.core.errors import ArtgenError, GeometryError
 from artgen.core.mesh import TriMesh
@@ -123,6 +124,11 @@ class BundleSubject(Subject):
             SubjectPart(name=p.name, label=p.label, mass=p.mass, densities=p.densities)
             for p in self.bundle.parts
         )
+
+    @cached_property
+    def roles(self) -> Mapping[str, Role]:
+        """By the labels of the manifest; words that are no roles are told and left out."""
+        return {p.name: ROLES[p.label] for p in self.bundle.parts if p.label in ROLES}
 
     @property
     def joints(self) -> tuple[Joint, ...]:

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from artgen.articulation.roles import ROLES
 from artgen.core.errors import ArtgenError
 from artgen.export.layout import MANIFEST, URDF
 from artgen.validate.bundle_subject import BundleSubject
@@ -122,10 +123,11 @@ def axes(subject: Subject) -> Iterator[Finding]:
 
 
 def limits(subject: Subject) -> Iterator[Finding]:
-    """Known type; finite lower <= 0 < upper (0 = lower in a bundle, as rest is closed); at most one
-    turn for a hinge."""
+    """Known type; finite lower <= 0 < upper; at most one turn for a hinge. In a bundle lower = 0,
+    as rest is closed; what closes nothing may turn both ways alike."""
     turn = subject.bounds.full_turn
     ours = subject.lacks("manifest") is None
+    closing = _closing(subject) if isinstance(subject, BundleSubject) else frozenset()
     known = MOVING if ours else (*MOVING, "fixed")
     for joint in subject.stated_joints:
         if joint.type not in known:
@@ -141,7 +143,9 @@ def limits(subject: Subject) -> Iterator[Finding]:
             yield _joint_finding(
                 "structure.limit", joint, value, "finite lower < upper", cause, remedy
             )
-        elif ours and joint.lower != 0.0:
+        elif ours and joint.lower not in (
+            (0.0,) if joint.child in closing else (0.0, -joint.upper)
+        ):
             cause, remedy = "rest must be closed", "put the closed end at 0 and let +q open"
             yield _joint_finding("structure.rest", joint, joint.lower, "lower = 0", cause, remedy)
         elif not joint.lower <= 0.0 <= joint.upper:
@@ -155,6 +159,17 @@ def limits(subject: Subject) -> Iterator[Finding]:
             cause, remedy = "radians read as degrees", "state the unit of angles"
             bound = subject.bounds.least_turn.at_least()
             yield _joint_finding("structure.turn", joint, span, bound, cause, remedy)
+
+
+def _closing(subject: BundleSubject) -> frozenset[str]:
+    """Parts that shut something, by the manifest's labels as they stand."""
+    labels = {
+        str(part.get("name")): part.get("label")
+        for part in subject.manifest["parts"]
+        if isinstance(part, dict)
+    }
+    closing = {word for word, role in ROLES.items() if role.closes}
+    return frozenset(name for name, label in labels.items() if label in closing)
 
 
 CAUSES = {

@@ -9,6 +9,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+from artgen.articulation.roles import Role
 from artgen.articulation.types import Joint, Mass, Precondition
 from artgen.core.mesh import Floats, TriMesh
 from artgen.geometry.clearance import Shape, shape_of_mesh
@@ -103,6 +104,11 @@ class Subject(ABC):
     @abstractmethod
     def parts(self) -> tuple[SubjectPart, ...]:
         """Rigid parts, the base first."""
+
+    @property
+    def roles(self) -> Mapping[str, Role]:
+        """Part name to what it is, where the source says so in words of the vocabulary."""
+        return {}
 
     @property
     @abstractmethod
