@@ -52,7 +52,7 @@ def hanger(x: float, y: float, z: float, *, lean: float, wood: Stock, steel: Sto
 def _shoulders() -> Solid:
     """Two sloping arms in one bow, 13 mm thick, drawn in the y, z plane with the neck at zero."""
     half, thick = 0.205, 0.013
-    top = [(s * half, 0.004 - 0.115 * abs(s) ** 1.35) for s in np.linspace(-1.0, 1.0, 13)]
+    top = [(s * half, 0.004 - 0.115 * abs(s) ** 1.35) for s in np.linspace(-1.0, 1.0, 9)]
     low = [(y, z - 0.026 + 0.008 * abs(y) / half) for y, z in top][::-1]
     outline = np.array([*low[::-1], *top[::-1]])
     return prism(outline, thick).transformed(_FROM_PLAN).at(-thick / 2.0)
@@ -64,11 +64,11 @@ def _trouser_bar() -> Solid:
 
 def _hook() -> Solid:
     """Up from the neck and over the rail, in the y, z plane; the rail's axis is zero."""
-    bend = arc((0.0, 0.0), HOOK, -0.35 * math.pi, 1.05 * math.pi, 10)
+    bend = arc((0.0, 0.0), HOOK, -0.35 * math.pi, 1.05 * math.pi, 7)
     foot = [(0.0, -0.064), (0.0, -HOOK - 0.012)]
     plane = np.concatenate([np.asarray(foot), bend])
     path = np.stack([np.zeros(len(plane)), plane[:, 0], plane[:, 1]], axis=1)
-    return wire(path, 0.0016, sides=6)
+    return wire(path, 0.0016, sides=5)
 
 
 _FROM_PLAN = np.array(

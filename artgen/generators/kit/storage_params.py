@@ -161,7 +161,7 @@ def storage_stocks(p: StorageParams) -> dict[str, Stock]:
         ),
         "track": Stock(surface="aluminium", density=ALUMINIUM, edge=0.0),
         "mirror": Stock(surface="mirror", density=GLASS, edge=0.0),
-        "hanger": Stock(surface="hanger", density=OAK, edge=0.001),
+        "hanger": Stock(surface="hanger", density=OAK, edge=0.0),
         "leather": Stock(surface="leather", density=900.0, edge=0.0),
     }
 

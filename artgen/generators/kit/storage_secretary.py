@@ -17,7 +17,9 @@ WRITING, FLAP = 0.73, 0.40
 """Height of the writing surface over the floor, and of the flap, m."""
 THIN = 0.009
 """Boards of the pigeonholes, m."""
-SMALL = 0.062
+PASSING = 0.0015
+"""m; between the open flap and the drawer under it."""
+SMALL = 0.070
 """Height of the small drawers' row, m."""
 
 
@@ -47,7 +49,7 @@ def flap_of(p: StorageParams, one: Design, opening: Rect) -> FallFlap:
     return FallFlap(
         opening=opening,
         front=one.case.front,
-        thickness=p.front_thickness,
+        thickness=min(p.front_thickness, p.board + p.gap - PASSING),
         gap=p.gap,
         arm=p.flap_arm,
         friction=p.flap_friction,
@@ -86,17 +88,21 @@ def _pigeonholes(p: StorageParams, design: Design, flap: FallFlap) -> Works:
     low, high = o.z0 + SMALL, o.z0 + min(0.30, 0.72 * (o.z1 - o.z0))
     count = p.pigeonholes
     step = (x1 - x0 - THIN) / count
-    levels = [stock.board((x0, front, z), (x1, rear, z + THIN), grain="x") for z in (low, high)]
+    levels = [
+        stock.board((x0, front, z), (x1, rear, z + THIN), grain="x") for z in (o.z0, low, high)
+    ]
     uprights = [
         stock.board((x0 + k * step, front, z0), (x0 + k * step + THIN, rear, z1), grain="z")
         for k in range(count + 1)
-        for z0, z1 in ((o.z0, low), (low + THIN, high))
+        for z0, z1 in ((o.z0 + THIN, low), (low + THIN, high))
         if z0 > low or k in (0, 1, count - 1, count)
     ]
     works = Works(base=(*levels, *uprights))
     for name, k in (("small_drawer_left", 0), ("small_drawer_right", count - 1)):
         left = x0 + k * step + THIN
-        place = Rect(x0=left + 0.0015, x1=left + step - THIN - 0.0015, z0=o.z0 + 0.001, z1=low)
+        place = Rect(
+            x0=left + 0.0015, x1=left + step - THIN - 0.0015, z0=o.z0 + THIN + 0.001, z1=low
+        )
         works += _small_drawer(p, design, replace(place, z1=low - 0.0015), front, name)
     return works
 
