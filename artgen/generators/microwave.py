@@ -65,6 +65,7 @@ def matched(p: MicrowaveParams, surfaces: Mapping[str, SurfaceSpec]) -> dict[str
     if light:
         looks["cover"] = replace(looks["front"], name="cover")
         looks["panel"] = replace(looks["front"], name="panel")
+        looks["inner"] = replace(looks["front"], name="inner")
     looks["foil"] = replace(looks["panel"], name="foil")
     pale = sum(looks["knob"].color) / 3.0 > 0.18
     looks["mark"] = SurfaceSpec(

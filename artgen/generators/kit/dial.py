@@ -8,6 +8,7 @@ import numpy as np
 
 from artgen.articulation.types import Body, DraftPart, Grip, Joint, Limit
 from artgen.generators.kit.control_console import PanelPlane
+from artgen.generators.kit.round_contact import round_boxes
 from artgen.geometry.solid import Solid, cone, cylinder, prism, slab, union
 
 SHAFT, PLAY, GAP = 0.0030, 0.0006, 0.0010
@@ -26,7 +27,8 @@ class Dial:
         height: above the face.
         style: a disc with a grip bar, a ribbed cone, or a plain drum with a skirt.
         start: angle of the pointer at rest, rad, counter-clockwise from the face's +u.
-        sweep: rad that it turns clockwise.
+        sweep: rad that it turns clockwise; None turns on without end.
+        label: its role.
         lift: thickness of what lies on the face around it (a printed plate).
     """
 
@@ -36,7 +38,8 @@ class Dial:
     height: float
     style: DialStyle = "ribbed"
     start: float = math.radians(225.0)
-    sweep: float = math.radians(270.0)
+    sweep: float | None = math.radians(270.0)
+    label: Literal["dial", "knob"] = "dial"
     friction: float = 0.02
     lift: float = 0.0
 
@@ -52,7 +55,7 @@ class Dial:
         tip = self._pointer()
         return DraftPart(
             name=self.name,
-            label="dial",
+            label=self.label,
             bodies=(
                 Body(
                     solid=self._placed(plane, knob),
@@ -79,12 +82,12 @@ class Dial:
         x, y, z = (-c + 0.0 for c in plane.outward)
         return Joint(
             name=f"{self.name}_turn",
-            type="revolute",
+            type="continuous" if self.sweep is None else "revolute",
             parent=parent,
             child=self.name,
             axis=(x, y, z),
             origin=plane.point(*self.center),
-            limit=Limit(lower=0.0, upper=self.sweep),
+            limit=None if self.sweep is None else Limit(lower=0.0, upper=self.sweep),
             friction=self.friction,
             damping=0.004,
             effort=1.0,

@@ -7,8 +7,8 @@ import numpy as np
 
 from artgen.articulation.types import Body, DraftPart, Grip, Joint, Mimic
 from artgen.generators.kit.density import ABS, GLASS
-from artgen.geometry.profile import circle
-from artgen.geometry.solid import Solid, cylinder, prism, revolve, slab, tube, union
+from artgen.generators.kit.round_contact import round_boxes
+from artgen.geometry.solid import Solid, cylinder, revolve, slab, tube, union
 
 WHEEL = 0.0065
 """m; radius of the ring's rollers."""
@@ -64,7 +64,7 @@ class GlassTurntable:
         ]
         x, y = self.center
         solid = union([plate, *spokes]).at(x, y, self.underside)
-        touch = prism(circle(0.93 * r, segments=16), PLATE).at(x, y, self.underside)
+        touch = round_boxes(r, self.underside, self.underside + PLATE, at=self.center)
         grip = Grip(
             name="turntable_rim",
             kind="rim",
@@ -72,7 +72,7 @@ class GlassTurntable:
             outward=(0.0, 0.0, 1.0),
             pull=(1.0, 0.0, 0.0),
         )
-        body = Body(solid=solid, surface=glass, density=GLASS, collision=(touch,))
+        body = Body(solid=solid, surface=glass, density=GLASS, collision=touch)
         return DraftPart(name="turntable", label="turntable", bodies=(body,), grips=(grip,))
 
     def ring_part(self, plastic: str) -> DraftPart:
@@ -103,10 +103,6 @@ class GlassTurntable:
             mimic=Mimic(joint="turntable_axle", multiplier=0.5),
         )  # fmt: skip
         return axle, ring
-
-    def _disc(self, reach: float) -> Solid:
-        disc = prism(circle(reach, segments=12), 0.1)
-        return disc.at(*self.center, self.floor - 0.05)
 
     def _spoke(self, reach: float, z: float, k: int) -> Solid:
         """An arm from the hub to a roller outside the hoop."""

@@ -17,7 +17,7 @@ from artgen.geometry.solid import Solid, box, cylinder, hull, prism, slab, union
 SHEET, LINER, FLANGE = 0.003, 0.0025, 0.004
 """m; cover, lining and front flange as drawn; their densities are scaled to 0.6 mm of steel."""
 THIN = STEEL * 0.0006
-HOOK = 0.013
+HOOK = 0.011
 """m; how far the door's hooks reach into the flange."""
 LAMP = (0.048, 0.048)
 LABEL = (0.080, 0.050)

@@ -86,7 +86,7 @@ class MicrowaveParams:
         """Where the panel begins: x beside the door, or z above it."""
         if self.form == "side":
             return self.half - self.panel_share * self.width
-        return self.height - 0.36 * self.panel_share * self.width
+        return self.height - 0.50 * self.panel_share * self.width
 
     @property
     def cavity(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:

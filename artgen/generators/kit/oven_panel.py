@@ -28,15 +28,32 @@ from artgen.textures.appliance_panel import BRANDS, LED
 
 CELLS: Mapping[str, Mapping[str, float]] = {
     "keypad": {"brand": 0.9, "display": 1.5, "keys": 4.6, "buttons": 1.3},
-    "dials": {"brand": 1.0, "dial_1": 3.2, "dial_2": 3.2},
-    "jog": {"brand": 0.9, "display": 1.5, "keys": 1.7, "dial_1": 2.7, "buttons": 1.3},
-}
+    "dials": {"brand": 1.0, "power_dial": 3.2, "timer_dial": 3.2},
+    "jog": {"brand": 0.9, "display": 1.5, "keys": 1.7, "power_dial": 2.7, "buttons": 1.3},
+    "knobs": {"function_knob": 3.0, "brand": 1.6, "display": 2.6, "oven_knob": 3.0},
+    "touch": {"brand": 2.2, "touch_left": 1.8, "display": 2.6, "touch_right": 2.2},
+    "timer": {"brand": 1.8, "function_knob": 2.2, "timer_dial": 2.2, "oven_knob": 2.2},
+    "range": {"left_front_knob": 1.0, "left_rear_knob": 1.0, "oven_knob": 1.2, "display": 1.3,
+              "function_knob": 1.0, "right_rear_knob": 1.0, "right_front_knob": 1.0},
+    "range_plain": {"left_front_knob": 1.0, "left_rear_knob": 1.0, "right_rear_knob": 1.0,
+                    "right_front_knob": 1.0, "brand": 1.1, "oven_knob": 1.3},
+}  # fmt: skip
 """What a panel carries from its upper or left end, and how much of its length each takes."""
 RELEASE = 1.5
-SCALES = (("100", "300", "450", "600", "800"), ("0", "5", "10", "15", "20", "25", "30"))
-"""W and minutes."""
+SCALES: Mapping[str, tuple[str, ...]] = {
+    "power": ("100", "300", "450", "600", "800"),
+    "timer": ("0", "5", "10", "15", "20", "25", "30"),
+    "oven": ("0", "50", "100", "150", "200", "250"),
+    "function": ("0", "I", "II", "III", "IV", "V", "VI"),
+    "left": ("0", "1", "2", "3", "4", "5", "6"),
+    "right": ("0", "1", "2", "3", "4", "5", "6"),
+}
+"""Numerals around a dial by the first word of its name: W, minutes, degrees Celsius, steps."""
+LEAST = 0.012
+"""m; radius of the smallest dial."""
 KEYS = ("POPCORN", "PIZZA", "POTATO", "REHEAT", "DEFROST", "1", "2", "3", "4", "5", "6", "7", "8",
         "9", "CLOCK", "0", "POWER", "TIMER")  # fmt: skip
+TOUCH = {"touch_left": ("power", "sun", "clock"), "touch_right": ("leaf", "lock", "star", "play")}
 GLYPHS = ("play", "pause", "clock", "lock")
 PLATE = 0.0012
 """m; thickness of the printed foil as drawn, half of it inside the panel."""
@@ -94,11 +111,11 @@ class OvenPanel:
         """Knobs on their shafts."""
         found = []
         for name, (center, size) in self.cells.items():
-            if name.startswith("dial"):
-                radius = self.dial_share * min(size)
+            if name.endswith(("dial", "knob")):
+                radius = max(LEAST, self.dial_share * min(size))
                 found.append(
-                    Dial(name=name if self.kind == "dials" else "dial", center=center,
-                         radius=radius, height=0.6 * radius + 0.008, style=self.dial,
+                    Dial(name=name, center=center, radius=radius, height=0.6 * radius + 0.008,
+                         style=self.dial, label="knob" if name.endswith("knob") else "dial",
                          lift=PLATE - SUNK)
                 )  # fmt: skip
         return found
@@ -153,6 +170,9 @@ class OvenPanel:
         ink = "#26282b" if light else "#e4e6e8"
         marks = [self._brand(ink), *self._dial_marks(ink), *self._button_marks(ink)]
         lit: list[str] = []
+        for side, glyphs in TOUCH.items():
+            if side in self.cells:
+                marks += self._touch_marks(side, glyphs, ink)
         if "keys" in self.cells:
             marks += self._key_marks(ink, line="#8d9094" if light else "#6a6e73")
         if "display" in self.cells:
@@ -182,7 +202,8 @@ class OvenPanel:
 
     def _dial_marks(self, ink: str) -> list[str]:
         marks = []
-        for dial, scale in zip(self.dials, SCALES, strict=False):
+        for dial in self.dials:
+            scale = SCALES[dial.name.split("_")[0]]
             cap = min(0.0042, 0.13 * dial.radius)
             marks += dial_scale(dial.center, dial.radius + 0.0025, scale, cap=cap, ink=ink,
                                 start=dial.start, sweep=dial.sweep)  # fmt: skip
@@ -196,6 +217,13 @@ class OvenPanel:
             (u, v), (_, h) = button.center, button.size
             marks.append(icon((u, v + 1.05 * h), glyph, size=min(0.007, 0.7 * h), ink=ink))
         return marks
+
+    def _touch_marks(self, cell: str, glyphs: Sequence[str], ink: str) -> list[str]:
+        """Signs of touch keys in a row."""
+        (u, v), (w, h) = self.cells[cell]
+        size = min(0.011, 0.2 * h)
+        places = [u + ((k + 0.5) / len(glyphs) - 0.5) * 0.84 * w for k in range(len(glyphs))]
+        return [icon((x, v), g, size=size, ink=ink) for x, g in zip(places, glyphs, strict=True)]
 
     def _key_marks(self, ink: str, *, line: str) -> list[str]:
         """A membrane keypad: as many cells as fit at 17 x 11 mm or so."""
