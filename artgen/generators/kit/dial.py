@@ -8,7 +8,6 @@ import numpy as np
 
 from artgen.articulation.types import Body, DraftPart, Grip, Joint, Limit
 from artgen.generators.kit.control_console import PanelPlane
-from artgen.generators.kit.round_contact import round_boxes
 from artgen.geometry.solid import Solid, cone, cylinder, prism, slab, union
 
 SHAFT, PLAY, GAP = 0.0030, 0.0006, 0.0010

@@ -82,11 +82,9 @@ class GlassTurntable:
         hoop = tube(reach + 0.003, reach - 0.003, 0.004, segments=40).at(0.0, 0.0, z - 0.002)
         spokes = [self._spoke(reach, z, k) for k in range(self.rollers)]
         solid = union([hub, hoop, *spokes]).at(*self.center, self.floor)
-        low, high = solid.bounds
-        flat = slab((*low[:2], low[2] + 0.004), (*high[:2], high[2] - 0.004))
-        body = Body(
-            solid=solid, surface=plastic, density=ABS, collision=(flat & self._disc(reach),)
-        )
+        level = self.floor + z
+        flat = round_boxes(reach, level - 0.0025, level + 0.0025, at=self.center)
+        body = Body(solid=solid, surface=plastic, density=ABS, collision=flat)
         return DraftPart(name="roller_ring", label="wheel", bodies=(body,))
 
     def joints(self) -> tuple[Joint, Joint]:
