@@ -72,30 +72,37 @@ def _tape(spec: SurfaceSpec, pixels: tuple[int, int], board: Image) -> tuple[Ima
 
 def _front(sheet: Sheet, detail: Mapping[str, float | str]) -> None:
     width, height = sheet.size
-    unit, ink = min(0.11, 0.30 * height, 0.16 * width), str(detail["ink"])
+    unit, ink = min(0.11, 0.27 * height, 0.16 * width), str(detail["ink"])
     maker = MAKERS[int(detail["maker"]) % len(MAKERS)]
     design = str(detail["design"])
     if design == "moving":
-        sheet.text((0.5 * width, 0.78 * height), maker, height=0.13 * height, fill=ink)
+        cap = _fitting(sheet, maker, 0.13 * height, 0.84 * width)
+        sheet.text((0.5 * width, 0.78 * height), maker, height=cap, fill=ink)
         line = 0.008 * min(width, height)
         sheet.line(
             [(0.08 * width, 0.66 * height), (0.92 * width, 0.66 * height)], fill=ink, width=line
         )
         _rooms(sheet, ink)
     elif design == "brand":
-        sheet.box((0.0, 0.34 * height), (width, 0.72 * height), fill=ink)
+        sheet.box((0.0, 0.38 * height), (width, 0.72 * height), fill=ink)
         light = "#f2ede2"
-        sheet.text((0.5 * width, 0.53 * height), maker, height=0.20 * height, fill=light)
+        cap = _fitting(sheet, maker, 0.19 * height, 0.86 * width)
+        sheet.text((0.5 * width, 0.55 * height), maker, height=cap, fill=light)
     elif design == "shipping":
         _label(sheet, (0.30 * width, 0.60 * height), min(0.15, 0.5 * width, 0.9 * height))
     marks = ("glass", "up", "umbrella") if design != "plain" else ("up", "glass")
     for k, mark in enumerate(marks):
-        at = (width - (len(marks) - k - 0.30) * 1.12 * unit, 0.55 * unit + 0.02)
+        at = (width - (len(marks) - k - 0.30) * 1.12 * unit, 0.5 * unit + 0.025 * height)
         MARKS[mark](sheet, at, 0.82 * unit, ink)
     sheet.text(
         (0.05 * width, 0.10 * height), f"{maker} C{23 + int(detail['maker'])}",
         height=min(0.012, 0.05 * height), fill=ink, anchor="left",
     )  # fmt: skip
+
+
+def _fitting(sheet: Sheet, words: str, height: float, room: float) -> float:
+    """Height of capitals, lowered until the words fit."""
+    return height * min(1.0, room / sheet.text_width(words, height=height))
 
 
 def _rooms(sheet: Sheet, ink: str) -> None:
@@ -115,14 +122,20 @@ def _side(sheet: Sheet, detail: Mapping[str, float | str]) -> None:
     ink, design = str(detail["ink"]), str(detail["design"])
     unit = min(0.12, 0.36 * height, 0.30 * width)
     if design == "brand":
-        sheet.box((0.0, 0.34 * height), (width, 0.72 * height), fill=ink)
+        sheet.box((0.0, 0.38 * height), (width, 0.72 * height), fill=ink)
+        unit = min(unit, 0.28 * height)
     else:
         words = "FRAGILE" if design == "shipping" else "THIS SIDE UP"
         cap = min(0.030, 0.09 * height, 0.105 * width)
         sheet.text((0.5 * width, 0.36 * height), words, height=cap, fill=ink)
     x = 0.5 * width
     for sign, mark in ((-1.0, "glass"), (1.0, "up")):
-        MARKS[mark](sheet, (x + sign * 0.62 * unit, 0.60 * height), 0.9 * unit, _over(design, ink))
+        MARKS[mark](
+            sheet,
+            (x + sign * 0.62 * unit, (0.55 if design == "brand" else 0.62) * height),
+            0.9 * unit,
+            _over(design, ink),
+        )
     MARKS["certificate"](sheet, (0.82 * width, 0.13 * height), min(0.06, 0.2 * height), ink)
 
 
