@@ -39,7 +39,7 @@ class Dial:
     start: float = math.radians(225.0)
     sweep: float | None = math.radians(270.0)
     label: Literal["dial", "knob"] = "dial"
-    friction: float = 0.02
+    friction: float = 0.01
     lift: float = 0.0
 
     def hole(self) -> Solid:
@@ -88,7 +88,7 @@ class Dial:
             origin=plane.point(*self.center),
             limit=None if self.sweep is None else Limit(lower=0.0, upper=self.sweep),
             friction=self.friction,
-            damping=0.004,
+            damping=0.0008,
             effort=1.0,
             velocity=3.0,
         )
