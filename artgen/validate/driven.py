@@ -224,5 +224,5 @@ def _fine_step(model: mujoco.MjModel, data: mujoco.MjData, q: Floats) -> float:
     mujoco.mj_forward(model, data)
     mujoco.mj_fullM(model, data, mass)
     pull = np.abs(data.qfrc_bias) + model.jnt_stiffness
-    rate = math.sqrt(float((pull / np.diag(mass)).max())) + PUSH
+    rate = math.sqrt(float((pull * np.diag(np.linalg.inv(mass))).max())) + PUSH
     return min(0.01, 2.0 * math.pi / rate / STEPS_A_PERIOD)

@@ -19,6 +19,8 @@ from artgen.validate.subject import Subject
 SETTLE_SECONDS = 2.0
 """Long enough for friction creep and for a part that is not held to swing away."""
 HELD_POSES = 21
+TAKEN_ALONG = 1e-3
+"""Share of what the loosest joint of a chain gives way by which the chain's others may move."""
 
 
 def settles(subject: Subject) -> Iterator[Finding | Simulated]:
@@ -60,13 +62,15 @@ def _settle_finding(part: str, value: float | str, bound: str, cause: str) -> Fi
 def drift_bound(model: mujoco.MjModel, data: mujoco.MjData, bounds: Bounds) -> Floats:
     """How far each joint (a degree of freedom each) may move while friction or a stop holds it.
 
-    MuJoCo's constraints are soft: with impedance d and the acceleration a that the joint would have
-    if free, it ends where the reference acceleration is (1 - d) / d a. So a stop (solref t, z) sags
-    by (1 - d) / d a (dmax t z)^2 / d, and friction creeps at (1 - d) / d a dmax t / 2
-    (MuJoCo manual, Computation, Parameters); t counts as two steps where it is less (`refsafe`). A
-    joint that neither holds has no such excuse.
+    MuJoCo's constraints are soft: with impedance d and the acceleration a that the load on a joint
+    would give it, it ends where the reference acceleration is (1 - d) / d a. So a stop (solref t,
+    z) sags by (1 - d) / d a (dmax t z)^2 / d, a coupling too, and friction creeps at
+    (1 - d) / d a dmax t / 2 (MuJoCo manual, Computation, Parameters); t counts as two steps where
+    it is less (`refsafe`). Joints above and below are taken along a little. A joint that none of
+    them holds has no such excuse.
     """
-    free, least = np.abs(data.qacc_smooth), 2.0 * model.opt.timestep
+    load, slack = coupled(model, np.abs(data.qfrc_smooth))
+    free, least = model.dof_invweight0 * load, 2.0 * model.opt.timestep
     stop = _softness(model.jnt_solimp) * free
     times = np.fmax(model.jnt_solref[:, 0], least) * model.jnt_solref[:, 1]
     sag = stop * (model.jnt_solimp[:, 1] * times) ** 2
@@ -74,7 +78,30 @@ def drift_bound(model: mujoco.MjModel, data: mujoco.MjData, bounds: Bounds) -> F
     creep = _softness(model.dof_solimp) * free * slow / 2.0
     held = np.where(model.dof_frictionloss > 0.0, creep * SETTLE_SECONDS, 0.0)
     stopped = np.where(model.jnt_limited, sag / model.jnt_solimp[:, 0], 0.0)
-    return np.asarray(bounds.settle_factor.value * (held + stopped) + bounds.settle_floor.value)
+    given = held + stopped + slack
+    for tree in range(model.ntree):
+        own = model.dof_treeid == tree
+        given[own] += TAKEN_ALONG * given[own].max(initial=0.0)
+    return np.asarray(bounds.settle_factor.value * given + bounds.settle_floor.value)
+
+
+def coupled(model: mujoco.MjModel, load: Floats) -> tuple[Floats, Floats]:
+    """(nv,) loads, N m or N, where of two coupled joints either may carry both, and how far the
+    couplings give way, rad or m. Joint 1 moves ratio times as far as joint 2."""
+    load, slack = load.copy(), np.zeros(model.nv)
+    for tie in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT):
+        pair = model.eq_obj1id[tie], model.eq_obj2id[tie]
+        ratio, impedance = abs(float(model.eq_data[tie, 1])), model.eq_solimp[tie]
+        if pair[1] < 0 or ratio == 0.0:
+            continue
+        one, other = load[[*pair]]
+        load[[*pair]] = one + other / ratio, other + ratio * one
+        time, damping = model.eq_solref[tie]
+        times = max(time, 2.0 * model.opt.timestep) * damping * impedance[1]
+        apart = (model.dof_invweight0[[*pair]] * load[[*pair]]).sum()
+        sag = (1.0 - impedance[0]) / impedance[0] ** 2 * apart * times**2
+        slack[[*pair]] += sag, sag / ratio
+    return load, slack
 
 
 def _softness(solimp: Floats) -> Floats:
