@@ -85,6 +85,8 @@ ROLES: Mapping[str, Role] = {
     # Links of furniture and tools.
     "seat": Role(meaning="carries a person", turning=(0.05, 20.0), sliding=(5.0, 500.0)),
     "backrest": Role(meaning="a person leans on it", turning=(0.5, 60.0), sliding=(5.0, 100.0)),
+    "armrest": Role(meaning="an arm lies on it", turning=(0.1, 20.0), sliding=(5.0, 100.0)),
+    "headrest": Role(meaning="a head leans on it", turning=(0.1, 20.0), sliding=(3.0, 60.0)),
     "column": Role(meaning="a post that lengthens or turns", turning=(0.05, 20.0),
                    sliding=(5.0, 500.0)),
     "leg": Role(meaning="carries the object and folds", turning=(0.05, 20.0), sliding=(1.0, 100.0)),

@@ -113,34 +113,33 @@ class Caster:
         inner, outer = self.radius + PLAY, self._cover
         front, back = math.pi / 2.0 + 1.15, math.pi / 2.0 - max(self.hood, 0.1)
         rim = np.concatenate(
-            [arc((0.0, 0.0), outer, back, front, 14), arc((0.0, 0.0), inner, front, back, 14)]
+            [arc((0.0, 0.0), outer, back, front, 9), arc((0.0, 0.0), inner, front, back, 9)]
         )
         cover = upright(prism(rim, self.width), "x").at(-self.width / 2.0)
         web = prism(
-            np.concatenate([arc((0.0, 0.0), outer - 0.0005, back, front, 14), arc((0.0, 0.0), 0.010,
+            np.concatenate([arc((0.0, 0.0), outer - 0.0005, back, front, 9), arc((0.0, 0.0), 0.010,
                             front + 0.9, back - 0.5 + 2.0 * math.pi, 6)]), FIN
         )  # fmt: skip
         hole = cylinder(PIN + 0.0008, 1.0, axis="x", segments=12).at(-0.5)
         body = union([cover, upright(web, "x").at(-FIN / 2.0)]) - hole
         body = body.at(0.0, self.trail, self.radius)
-        boss = cylinder(0.0125, self.shoulder - self._boss_low, segments=16).at(z=self._boss_low)
+        boss = cylinder(0.0125, self.shoulder - self._boss_low, segments=12).at(z=self._boss_low)
         return union([body, boss])
 
     def _wheels(self) -> list[Solid]:
         """The discs inside the treads, dished outside."""
         w, r, dish = self._tread, 0.80 * self.radius + 0.0005, 0.0015
-        outline = [(0.0, 0.0), (r, 0.0), (r, w - 0.001), (0.86 * r, w - 0.001),
-                   (0.8 * r, w - 0.001 - dish), (0.34 * r, w - 0.001 - dish), (0.28 * r, w),
-                   (0.0, w)]  # fmt: skip
-        disc = revolve(outline, axis="x", segments=24).at(FIN / 2.0 + GAP)
+        outline = [(0.0, 0.0), (r, 0.0), (r, w - 0.001),
+                   (0.76 * r, w - 0.001 - dish), (0.3 * r, w - 0.001 - dish), (0.0, w)]  # fmt: skip
+        disc = revolve(outline, axis="x", segments=14).at(FIN / 2.0 + GAP)
         return [disc, disc.mirrored("x")]
 
     def _treads(self) -> list[Solid]:
         w, r, core = self._tread, self.radius, 0.80 * self.radius
         ease = 0.16 * w
         outline = [(core, 0.0), (r - 0.5 * ease, 0.0), (r, 0.5 * ease), (r, w - ease),
-                   (r - 0.4 * ease, w - 0.25 * ease), (r - ease, w), (core, w)]  # fmt: skip
-        ring = revolve(outline, axis="x", segments=28).at(FIN / 2.0 + GAP)
+                   (r - ease, w), (core, w)]  # fmt: skip
+        ring = revolve(outline, axis="x", segments=20).at(FIN / 2.0 + GAP)
         return [ring, ring.mirrored("x")]
 
     @property
