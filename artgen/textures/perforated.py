@@ -16,8 +16,8 @@ def perforated(spec: SurfaceSpec) -> TextureSet:
     radius of a hole as a share of the pitch."""
     width, height = spec.tile
     sheet = Sheet((width, height), pixels=(PIXELS, PIXELS), background=srgb_hex(spec.color))
-    hole = str(spec.detail.get("hole", "#d4dadb"))
-    radius = float(spec.detail.get("open", 0.34)) * height / ROWS
+    hole = str(spec.detail.get("hole", "#ffffff"))
+    radius = float(spec.detail.get("open", 0.40)) * height / ROWS
     for row in range(ROWS):
         y = (row + 0.5) * height / ROWS
         for column in np.arange(-1, ROWS + 1) + 0.5 * (row % 2):

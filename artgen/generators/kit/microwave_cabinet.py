@@ -131,7 +131,7 @@ def _ribs(p: MicrowaveParams) -> Solid:
 
 
 def _grilles(p: MicrowaveParams) -> tuple[list[Solid], list[Solid]]:
-    """Louvered plates in the left side and in the rear, and the openings for them."""
+    """Louvered plates in the right side and in the rear, and the openings for them."""
     long, high = 0.014 * p.vents, p.vent_height
     room = slab((-long / 2.0, -high / 2.0, -0.006), (long / 2.0, high / 2.0, 0.001))
     sheet = slab((-long / 2.0, -high / 2.0, -0.0022), (long / 2.0, high / 2.0, -0.0005))
@@ -141,7 +141,7 @@ def _grilles(p: MicrowaveParams) -> tuple[list[Solid], list[Solid]]:
     ]
     z = p.height - 0.055 - high / 2.0
     side = PanelPlane(
-        origin=(-p.half, p.depth * 0.62, z), right=(0.0, -1.0, 0.0), up=(0.0, 0.0, 1.0),
+        origin=(p.half, p.depth * 0.62, z), right=(0.0, 1.0, 0.0), up=(0.0, 0.0, 1.0),
         size=(1.0, 1.0),
     )  # fmt: skip
     rear = PanelPlane(

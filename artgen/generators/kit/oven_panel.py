@@ -33,8 +33,9 @@ CELLS: Mapping[str, Mapping[str, float]] = {
     "knobs": {"function_knob": 3.0, "brand": 1.6, "display": 2.6, "oven_knob": 3.0},
     "touch": {"brand": 2.2, "touch_left": 1.8, "display": 2.6, "touch_right": 2.2},
     "timer": {"brand": 1.8, "function_knob": 2.2, "timer_dial": 2.2, "oven_knob": 2.2},
-    "range": {"left_front_knob": 1.0, "left_rear_knob": 1.0, "oven_knob": 1.2, "display": 1.3,
-              "function_knob": 1.0, "right_rear_knob": 1.0, "right_front_knob": 1.0},
+    "range": {"left_front_knob": 1.0, "left_rear_knob": 1.0, "oven_knob": 1.1, "brand": 0.9,
+              "display": 1.2, "function_knob": 1.1, "right_rear_knob": 1.0,
+              "right_front_knob": 1.0},
     "range_plain": {"left_front_knob": 1.0, "left_rear_knob": 1.0, "right_rear_knob": 1.0,
                     "right_front_knob": 1.0, "brand": 1.1, "oven_knob": 1.3},
 }  # fmt: skip
@@ -174,7 +175,7 @@ class OvenPanel:
             if side in self.cells:
                 marks += self._touch_marks(side, glyphs, ink)
         if "keys" in self.cells:
-            marks += self._key_marks(ink, line="#8d9094" if light else "#6a6e73")
+            marks += self._key_marks(line="#5d6165" if light else "#64686d")
         if "display" in self.cells:
             (u, v), (w, h) = self.cells["display"]
             half, tall = (0.42 * w, 0.34 * h), 0.36 * min(h, 0.42 * w)
@@ -198,7 +199,7 @@ class OvenPanel:
 
     def _brand(self, ink: str) -> str:
         (u, v), (w, h) = self.cells["brand"]
-        return words((u, v), BRANDS[self.brand], cap=min(0.10 * w, 0.38 * h, 0.011), ink=ink)
+        return words((u, v), BRANDS[self.brand], cap=min(0.105 * w, 0.38 * h, 0.012), ink=ink)
 
     def _dial_marks(self, ink: str) -> list[str]:
         marks = []
@@ -225,7 +226,7 @@ class OvenPanel:
         places = [u + ((k + 0.5) / len(glyphs) - 0.5) * 0.84 * w for k in range(len(glyphs))]
         return [icon((x, v), g, size=size, ink=ink) for x, g in zip(places, glyphs, strict=True)]
 
-    def _key_marks(self, ink: str, *, line: str) -> list[str]:
+    def _key_marks(self, *, line: str) -> list[str]:
         """A membrane keypad: as many cells as fit at 17 x 11 mm or so."""
         (u, v), (w, h) = self.cells["keys"]
         columns = max(2, min(6, int(w / 0.027)))
@@ -240,5 +241,5 @@ class OvenPanel:
                               radius=0.002))  # fmt: skip
             text = KEYS[k % len(KEYS)]
             cap = min(0.42 * dv, 0.0046 if len(text) < 3 else 0.12 * du)
-            marks.append(words((x, y), text, cap=cap, ink="#f4f5f6" if ink != "#26282b" else ink))
+            marks.append(words((x, y), text, cap=cap, ink="#f4f5f6"))
         return marks
