@@ -8,7 +8,7 @@ from artgen.articulation.types import Body, DraftPart, Grip, Joint, Limit
 from artgen.core.mesh import Floats
 from artgen.generators.kit.bent_strip import bent_strip
 from artgen.generators.kit.board import Stock
-from artgen.generators.kit.cushion import pad, plan, upholstered
+from artgen.generators.kit.cushion import COARSE, pad, plan, upholstered
 from artgen.geometry.solid import slab
 
 POST = (0.016, 0.046)
@@ -112,8 +112,10 @@ class Armrest:
                 self._pad(soft)]  # fmt: skip
 
     def _pad(self, soft: Stock) -> Body:
-        outline = plan(self.width, self.length, 0.42 * self.width, segments=5)
-        steps = upholstered(PAD - 0.004, roll=0.010, crown=0.004, reach=self.width / 2.0)
+        outline = plan(self.width, self.length, 0.42 * self.width, segments=3)
+        steps = upholstered(
+            PAD - 0.004, roll=0.010, crown=0.004, reach=self.width / 2.0, rings=COARSE
+        )
 
         def lie(flat: Floats) -> Floats:
             bend = flat.copy()

@@ -23,7 +23,7 @@ PLAY = 0.0020
 """m; between the tread and the hood."""
 SHELL = 0.0028
 """m; thickness of the hood."""
-PIN = 0.0040
+PIN = 0.0036
 """m; radius of the axle."""
 STEM = 0.0055
 """m; radius of a stem of 11 mm."""
@@ -74,9 +74,20 @@ class Caster:
         """Where the hood's outside meets the far side of the stem, m."""
         return self.radius + math.sqrt(self._cover**2 - (self.trail - STEM) ** 2) - SHELL
 
+    @property
+    def _boss_clear(self) -> float:
+        """Where a cuboid in the boss clears the corners of the wheel's contact pieces, m."""
+        reach = self._contact_reach + 0.001
+        return max(self._boss_low, self.radius + math.sqrt(reach**2 - (self.trail - 0.009) ** 2))
+
+    @property
+    def _contact_reach(self) -> float:
+        """Radius of the polygon's corners, m."""
+        return self.radius / math.cos(math.pi / (4 * CUBOIDS))
+
     def swivel_part(self, name: str, place: Floats, look: CasterLook) -> DraftPart:
         """Hood, web and stem; `place` is (4, 4) `object_from_caster`, a quarter turn about z."""
-        boss = slab((-0.009, -0.009, self._boss_low), (0.009, 0.009, self.shoulder))
+        boss = slab((-0.009, -0.009, self._boss_clear), (0.009, 0.009, self.shoulder))
         hood = look.hood.piece(self._hood().transformed(place), contact=(boss.transformed(place),))
         length = self.stem + self.shoulder - self._boss_low
         stem = cylinder(STEM, length, segments=12).at(z=self._boss_low).transformed(place)
@@ -84,13 +95,13 @@ class Caster:
 
     def wheel_part(self, name: str, place: Floats, look: CasterLook) -> DraftPart:
         """Both wheels on their axle."""
-        axle = cylinder(PIN, self.width - 0.004, axis="x", segments=10).at(-self.width / 2 + 0.002)
-        hubs, treads = self._wheels(), self._treads()
+        axle = cylinder(PIN, FIN + 4.0 * GAP, axis="x", segments=8).at(-FIN / 2.0 - 2.0 * GAP)
         center = self._to_axle(place)
         contact = tuple(piece.transformed(center) for piece in self._contact())
+        treads = union([axle, self._treads()]).transformed(center)
         bodies = (
-            look.hub.piece(union([axle, *hubs]).transformed(center), contact=contact),
-            *(look.tread.piece(tread.transformed(center)) for tread in treads),
+            look.tread.piece(treads, contact=contact),
+            look.hub.piece(self._caps().transformed(center)),
         )
         return DraftPart(name=name, label="wheel", bodies=bodies)
 
@@ -113,34 +124,33 @@ class Caster:
         inner, outer = self.radius + PLAY, self._cover
         front, back = math.pi / 2.0 + 1.15, math.pi / 2.0 - max(self.hood, 0.1)
         rim = np.concatenate(
-            [arc((0.0, 0.0), outer, back, front, 9), arc((0.0, 0.0), inner, front, back, 9)]
+            [arc((0.0, 0.0), outer, back, front, 7), arc((0.0, 0.0), inner, front, back, 7)]
         )
         cover = upright(prism(rim, self.width), "x").at(-self.width / 2.0)
         web = prism(
-            np.concatenate([arc((0.0, 0.0), outer - 0.0005, back, front, 9), arc((0.0, 0.0), 0.010,
+            np.concatenate([arc((0.0, 0.0), outer - 0.0005, back, front, 7), arc((0.0, 0.0), 0.010,
                             front + 0.9, back - 0.5 + 2.0 * math.pi, 6)]), FIN
         )  # fmt: skip
-        hole = cylinder(PIN + 0.0008, 1.0, axis="x", segments=12).at(-0.5)
+        hole = cylinder(PIN + 0.0008, 1.0, axis="x", segments=8).at(-0.5)
         body = union([cover, upright(web, "x").at(-FIN / 2.0)]) - hole
         body = body.at(0.0, self.trail, self.radius)
         boss = cylinder(0.0125, self.shoulder - self._boss_low, segments=12).at(z=self._boss_low)
         return union([body, boss])
 
-    def _wheels(self) -> list[Solid]:
-        """The discs inside the treads, dished outside."""
-        w, r, dish = self._tread, 0.80 * self.radius + 0.0005, 0.0015
-        outline = [(0.0, 0.0), (r, 0.0), (r, w - 0.001),
-                   (0.76 * r, w - 0.001 - dish), (0.3 * r, w - 0.001 - dish), (0.0, w)]  # fmt: skip
-        disc = revolve(outline, axis="x", segments=14).at(FIN / 2.0 + GAP)
-        return [disc, disc.mirrored("x")]
-
-    def _treads(self) -> list[Solid]:
-        w, r, core = self._tread, self.radius, 0.80 * self.radius
+    def _treads(self) -> Solid:
+        """Both wheels with their rounded treads."""
+        w, r = self._tread, self.radius
         ease = 0.16 * w
-        outline = [(core, 0.0), (r - 0.5 * ease, 0.0), (r, 0.5 * ease), (r, w - ease),
-                   (r - ease, w), (core, w)]  # fmt: skip
-        ring = revolve(outline, axis="x", segments=20).at(FIN / 2.0 + GAP)
-        return [ring, ring.mirrored("x")]
+        outline = [(0.0, 0.0), (r, 0.0), (r, w - ease), (r - ease, w), (0.0, w)]
+        disc = revolve(outline, axis="x", segments=18).at(FIN / 2.0 + GAP)
+        return union([disc, disc.mirrored("x")])
+
+    def _caps(self) -> Solid:
+        """The domed discs that close the wheels outside."""
+        w, r = self._tread, 0.78 * self.radius
+        outline = [(0.0, w), (r, w), (0.92 * r, w + 0.0012), (0.0, w + 0.0006)]
+        cap = revolve(outline, axis="x", segments=14).at(FIN / 2.0 + GAP)
+        return union([cap, cap.mirrored("x")])
 
     @property
     def _tread(self) -> float:
@@ -149,7 +159,7 @@ class Caster:
     def _contact(self) -> list[Solid]:
         """Cuboids whose corners lie on a regular polygon that touches the floor with a side."""
         step = math.pi / (4 * CUBOIDS)
-        reach, half = self.radius / math.cos(step), self.width / 2.0
+        reach, half = self._contact_reach, self.width / 2.0
         turns = [step * (2 * k + 1) for k in range(CUBOIDS)]
         corners = [(half, reach * math.cos(a), reach * math.sin(a)) for a in turns]
         return [slab([-c for c in corner], corner) for corner in corners]

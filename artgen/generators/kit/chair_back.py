@@ -92,13 +92,14 @@ class ChairBack:
     def _cushion(self, low: float, high: float, cover: Stock, cord: Stock) -> list[Body]:
         width = self.width - 0.020
         radius = min(0.8 * self.corner, 0.45 * (high - low))
-        outline = plan(width, high - low, radius)
+        outline = plan(width, high - low, radius, segments=3)
         roll = min(0.6 * self.padding, 0.025)
         steps = upholstered(
             0.75 * self.padding,
             roll=roll,
             crown=0.25 * self.padding,
             reach=min(width, high - low) / 2,
+            rings=(2, 4, 3),
         )
 
         def bend(flat: Floats) -> Floats:
@@ -106,6 +107,8 @@ class ChairBack:
 
         contact = self._contact(SHELL, 0.8 * self.padding, low, high)
         soft = cover.piece(pad(outline, steps, bend), contact=contact)
+        if self.style == "panels":
+            return [soft]
         seam = piping(outline, (0.0005, 0.45 * self.padding), bend, 0.0022)
         return [soft, cord.piece(seam)]
 

@@ -36,10 +36,17 @@ def pad(outline: Floats, steps: Sequence[Step], warp: Warp) -> Solid:
 
 def piping(outline: Floats, step: Step, warp: Warp, radius: float) -> Solid:
     """A cord sewn in along one ring of a pad."""
-    return wire(warp(_ring(outline, step)), radius, sides=5, closed=True)
+    return wire(warp(_ring(outline, step)), radius, sides=4, closed=True)
 
 
-def upholstered(thickness: float, *, roll: float, crown: float, reach: float) -> list[Step]:
+def upholstered(
+    thickness: float,
+    *,
+    roll: float,
+    crown: float,
+    reach: float,
+    rings: tuple[int, int, int] = (3, 5, 5),
+) -> list[Step]:
     """Steps of a pad that is flat below: a rolled edge, then a top that rises by `crown` more.
 
     Args:
@@ -47,18 +54,22 @@ def upholstered(thickness: float, *, roll: float, crown: float, reach: float) ->
         roll: radius of the edge above, and of half of that below.
         crown: how much thicker it is in the middle.
         reach: half the shorter side of the outline.
+        rings: how many steps the edge below, the edge above and the top take.
     """
     low = 0.5 * roll
-    under = [(low * (1.0 - np.sin(a)), low * (1.0 - np.cos(a))) for a in (0.0, 0.8, np.pi / 2.0)]
-    over = [
-        (roll * (1.0 - np.cos(a)), thickness - roll * (1.0 - np.sin(a)))
-        for a in (0.0, 0.4, 0.8, 1.2, np.pi / 2.0)
-    ]
+    below, above = (np.linspace(0.0, np.pi / 2.0, count) for count in rings[:2])
+    under = [(low * (1.0 - np.sin(a)), low * (1.0 - np.cos(a))) for a in below]
+    over = [(roll * (1.0 - np.cos(a)), thickness - roll * (1.0 - np.sin(a))) for a in above]
+    inward = np.linspace(0.0, 1.0, rings[2] + 1)[1:] ** 1.2
     top = [
         (roll + t * (0.97 * reach - roll), thickness + crown * (1.0 - (1.0 - t) ** 2.2))
-        for t in (0.12, 0.3, 0.55, 0.8, 1.0)
+        for t in inward
     ]
     return [(float(inset), float(height)) for inset, height in (*under, *over, *top)]
+
+
+COARSE = (2, 3, 2)
+"""Rings of a small pad."""
 
 
 def _ring(outline: Floats, step: Step) -> Floats:

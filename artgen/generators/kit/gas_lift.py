@@ -1,6 +1,6 @@
 """Gas lifts of swivel chairs: a tube in the foot, a rod that rises from it, a cover that hangs."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from artgen.articulation.types import Body, DraftPart, Joint, Limit, Spring
@@ -50,7 +50,7 @@ class GasLift:
 
     def tube_body(self, stock: Stock) -> Body:
         """The tube, part of the foot."""
-        solid = tube(TUBE, BORE, self.tube_top - self.low, segments=28).at(z=self.low)
+        solid = tube(TUBE, BORE, self.tube_top - self.low, segments=20).at(z=self.low)
         ring = slab((0.0112, -0.0112, self.low), (0.0235, 0.0112, self.tube_top))
         side = slab((-0.0112, 0.0112, self.low), (0.0112, 0.0235, self.tube_top))
         contact = (ring, ring.mirrored("x"), side, side.mirrored("y"))
@@ -66,7 +66,7 @@ class GasLift:
         bodies = [rod.piece(union([straight, head]), contact=(core,))]
         hood = self._hood()
         pieces = self._hood_contact() if self.cover != "bare" else ()
-        bodies.insert(0, cover.piece(hood, contact=pieces))
+        bodies.insert(0, replace(cover, edge=0.0).piece(hood, contact=pieces))
         return DraftPart(name="column", label="column", bodies=tuple(bodies))
 
     def joint(self, carried: float, *, friction: float) -> Joint:
@@ -87,25 +87,26 @@ class GasLift:
         )
 
     def _hood(self) -> Solid:
-        """A collar, and below it bellows or telescopic steps around the tube."""
+        """A collar with its clip, and below it bellows or telescopic steps around the tube."""
         top = self.shoulder
-        collar = tube(0.0300, ROD - 0.001, 0.010, segments=28).at(z=top - 0.010)
+        ring = tube(0.0300, ROD - 0.001, 0.010, segments=20).at(z=top - 0.010)
+        clip = slab((-0.008, -0.0335, top - 0.009), (0.008, -0.028, top - 0.001))
+        collar = union([ring, clip])
         if self.cover == "bare":
             return collar
         inner, low, high = TUBE + 0.0015, self.hub + 0.003, top - 0.009
-        count = 9 if self.cover == "bellows" else 3
+        count = 8 if self.cover == "bellows" else 3
         rise = (high - low) / count
         outline: list[tuple[float, float]] = [(inner, high), (inner, low)]
         for k in range(count):
             z = low + k * rise
             if self.cover == "bellows":
-                outline += [(0.0300, z + 0.08 * rise), (0.0345, z + 0.40 * rise),
-                            (0.0345, z + 0.60 * rise), (0.0300, z + 0.92 * rise)]  # fmt: skip
+                outline += [(0.0300, z + 0.05 * rise), (0.0345, z + 0.50 * rise)]
             else:
                 wide = 0.0370 - 0.003 * k
                 outline += [(wide, z), (wide, z + rise - 0.001)]
         outline.append((0.0295, high))
-        return union([collar, revolve(outline, segments=28)])
+        return union([collar, revolve(outline, segments=20)])
 
     def _hood_contact(self) -> tuple[Solid, ...]:
         low, high = self.hub + 0.003, self.shoulder - 0.001

@@ -5,7 +5,7 @@ from artgen.core.mesh import Floats
 from artgen.generators.kit.bent_strip import bent_strip
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.chair_back import ChairBack
-from artgen.generators.kit.cushion import pad, piping, plan, upholstered
+from artgen.generators.kit.cushion import COARSE, pad, piping, plan, upholstered
 from artgen.generators.kit.office_seat import BACK, BOX, OfficeSeat
 from artgen.geometry.solid import Solid, cylinder, slab, union
 
@@ -129,9 +129,11 @@ def headrest(
     stalk = slab(
         (-STALK[0] / 2, y - STALK[1] / 2, top - 0.115), (STALK[0] / 2, y + STALK[1] / 2, middle)
     )
-    outline = plan(size[0], size[1], 0.40 * size[1], segments=5)
+    outline = plan(size[0], size[1], 0.40 * size[1], segments=3)
     thick = 0.8 * size[2]
-    steps = upholstered(thick, roll=0.35 * thick, crown=0.2 * size[2], reach=size[1] / 2.0)
+    steps = upholstered(
+        thick, roll=0.35 * thick, crown=0.2 * size[2], reach=size[1] / 2.0, rings=COARSE
+    )
 
     def lie(flat: Floats) -> Floats:
         placed = flat[:, [0, 2, 1]].copy()

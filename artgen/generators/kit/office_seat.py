@@ -124,7 +124,11 @@ class OfficeSeat:
         outline = self._outline(0.0)
         reach = min(self.width, self.depth) / 2.0
         steps = upholstered(
-            self.thickness, roll=0.45 * self.thickness, crown=self.crown, reach=reach
+            self.thickness,
+            roll=0.45 * self.thickness,
+            crown=self.crown,
+            reach=reach,
+            rings=(2, 4, 4),
         )
         solid = pad(outline, steps, self._on_cushion)
         w, d = self.width / 2.0 - 0.012, self.depth / 2.0
@@ -136,14 +140,14 @@ class OfficeSeat:
         seam = piping(outline, (0.0003, 0.50 * self.thickness), self._on_cushion, 0.0024)
         bodies = [cover.piece(solid, contact=(main, nose)), cord.piece(seam)]
         if self.panel:
-            step = steps[-4]
+            step = steps[-3]
             bodies.append(cord.piece(piping(outline, step, self._on_cushion, 0.0020)))
         return bodies
 
     def _outline(self, inset: float) -> Floats:
         front, rear = self.corner
         radii = tuple(max(r - inset, 0.01) for r in (front, front, rear, rear))
-        return plan(self.width - 2.0 * inset, self.depth - 2.0 * inset, radii, segments=5)
+        return plan(self.width - 2.0 * inset, self.depth - 2.0 * inset, radii, segments=4)
 
     def _on_pan(self, flat: Floats) -> Floats:
         return self._formed(flat, self.pan, 0.0)
@@ -173,7 +177,7 @@ class OfficeSeat:
         """A rod out of the housing's pocket that ends in a paddle, drawn to +x and mirrored."""
         z, y = self.base + 0.018, -0.010
         start = BOX[0] / 2.0 - POCKET
-        knee, drop = BOX[0] / 2.0 + 0.030, 0.020
+        knee, drop = BOX[0] / 2.0 + 0.030, 0.024
         path = [(start, z), (knee, z), (knee + 0.03, z - drop), (reach, z - drop)]
         legs = [_bar(a, b, 0.0035, y) for a, b in pairwise(path)]
         paddle = hull([
@@ -208,7 +212,7 @@ class OfficeSeat:
             child=name,
             axis=(0.0, -float(side), 0.0),
             origin=(side * (BOX[0] / 2.0 - POCKET), -0.010, self.base + 0.018),
-            limit=Limit(lower=0.0, upper=0.14),
+            limit=Limit(lower=0.0, upper=0.13),
             friction=0.05,
             damping=0.02,
             effort=6.0,

@@ -76,8 +76,8 @@ class StarBase:
 
     def _hub(self) -> Solid:
         radius, height = self.hub
-        lower = cone(0.86 * radius, radius, 0.25 * height, segments=32)
-        upper = cone(radius, 0.90 * radius, 0.75 * height, segments=32).at(z=0.25 * height)
+        lower = cone(0.86 * radius, radius, 0.25 * height, segments=24)
+        upper = cone(radius, 0.90 * radius, 0.75 * height, segments=24).at(z=0.25 * height)
         return union([lower, upper]).at(z=self.hub_low)
 
     def _section(self, share: float) -> tuple[float, float, float, float]:
@@ -97,14 +97,14 @@ class StarBase:
 
     def _arm(self, x: float, y: float) -> Solid:
         along = np.array((x, y)) / self.reach
-        rings = [self._ring(along, *self._section(k / 6.0)) for k in range(7)]
-        boss = cylinder(0.5 * self.tip[0] + 0.001, self.tip[1], segments=20).at(x, y, self.low)
+        rings = [self._ring(along, *self._section(k / 4.0)) for k in range(5)]
+        boss = cylinder(0.5 * self.tip[0] + 0.001, self.tip[1], segments=14).at(x, y, self.low)
         return union([loft(rings), boss])
 
     def _ring(self, along: Floats, r: float, z: float, width: float, height: float) -> Floats:
         """A cross-section: flat below, rounded above."""
         soft = 0.42 * min(width, height)
-        outline = rounded_rectangle(width, height, (0.004, 0.004, soft, soft), segments=3)
+        outline = rounded_rectangle(width, height, (0.004, 0.004, soft, soft), segments=2)
         across = np.array((-along[1], along[0]))
         plane = along * r + outline[:, :1] * across
         return np.c_[plane, z + outline[:, 1]]
