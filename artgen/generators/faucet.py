@@ -35,11 +35,9 @@ def matched(p: FaucetParams, surfaces: Mapping[str, SurfaceSpec]) -> dict[str, S
     return looks
 
 
-def heads_hang_on_arcs(p: FaucetParams) -> bool:
-    """Spray heads are pulled down from round arcs; square tubes are for square necks."""
-    if p.kind == "arc" and p.pull_out:
-        return p.curve == "arc" and p.drop > p.head + 0.04 and p.lean < 10.0
-    return p.lean == 0.0 or p.curve == "arc"
+def legs_lean_on_arcs(p: FaucetParams) -> bool:
+    """Only the leg of a round arc leans out; one with a spray head does so by little."""
+    return p.lean == 0.0 or (p.curve == "arc" and not (p.pull_out and p.lean > 20.0))
 
 
 def spouts_clear_the_handles(p: FaucetParams) -> bool:
@@ -50,5 +48,5 @@ def spouts_clear_the_handles(p: FaucetParams) -> bool:
 
 
 INVARIANTS: Mapping[str, Callable[[FaucetParams], bool]] = {
-    check.__name__: check for check in (heads_hang_on_arcs, spouts_clear_the_handles)
+    check.__name__: check for check in (legs_lean_on_arcs, spouts_clear_the_handles)
 }

@@ -60,7 +60,7 @@ def kitchen_mixer(p: FaucetParams) -> Works:
     z = (low + high) / 2.0
     tip = z + 0.006 + max(0.0, p.spout_rise)
     path = SpoutPath(
-        corners=((-bore, z), (-p.reach, tip), (-p.reach - 0.004, tip - 0.034)),
+        corners=((-bore - 0.004, z), (-p.reach, tip), (-p.reach - 0.004, tip - 0.034)),
         bends=(0.018,),
         radius=min(p.tube, 0.0125),
     )
@@ -85,14 +85,17 @@ def arc_mixer(p: FaucetParams) -> Works:
         origin=(end, 0.0, z), right=(0.0, -1.0, 0.0), up=(0.0, 0.0, -1.0), size=(0.1, 0.1)
     )
     arm = cylinder(barrel, end, axis="x", segments=28).at(z=z)
-    path = _neck(p, top, p.arch)
+    pulled = p.pull_out and p.curve == "arc"
+    drop = p.head + p.pull + 0.020 if pulled else p.drop
+    peak = max(p.arch, 0.5 * p.reach + drop + 0.125)
+    path = _neck(p, top, peak, drop=drop)
     ring = (swivel_ring(0.94 * r, top + SEAM, top + 0.016),)
     fixed = (
         *flange(max(p.flange, r + 0.006), r),
         post(r, 0.004, top),
         metal(0.001).piece(arm, contact=round_boxes(barrel, 0.0, end, axis="x", at=(0.0, z))),
     )
-    spout = pull_out_spout if p.pull_out else swivel_spout
+    spout = pull_out_spout if pulled else swivel_spout
     handle = mixer(p, side, barrel, length=0.85 * p.lever_length)
     return Works(fixed=fixed) + spout(p, path, ring) + handle
 
@@ -112,7 +115,9 @@ def bridge(p: FaucetParams) -> Works:
         fixed.append(nut(0.0150, 0.011, (x * 0.86 - 0.0055, 0.0, z), (1.0, 0.0, 0.0)))
     fixed.append(nut(0.0190, 0.010, (0.0, 0.0, z + 0.008), (0.0, 0.0, 1.0)))
     ring = (swivel_ring(0.0150, z + 0.022 + SEAM, z + 0.036),)
-    spout = swivel_spout(p, _neck(p, z + 0.026, max(p.arch - 0.10, top + 0.11)), ring)
+    spout = swivel_spout(
+        p, _neck(p, z + 0.026, max(p.arch - 0.10, top + 0.11), drop=0.4 * p.drop), ring
+    )
     return Works(fixed=tuple(fixed)) + spout + _pair(p, half, top)
 
 
@@ -132,7 +137,7 @@ def center_set(p: FaucetParams) -> Works:
         *(_bonnet(x, 0.0, high - 0.001, p.bonnet + 0.001) for x in (-half, half)),
     ]
     ring = (swivel_ring(0.0145, high + 0.020 + SEAM, high + 0.033),)
-    path = _neck(p, high + 0.024, 0.62 * p.arch, reach=0.62 * p.reach)
+    path = _neck(p, high + 0.024, 0.56 * p.arch, reach=0.62 * p.reach, drop=0.30 * p.drop)
     spout = swivel_spout(p, path, ring)
     if p.fixed:
         fixed += [*(body for part in spout.parts for body in part.bodies)]
@@ -162,7 +167,7 @@ def wall_mixer(p: FaucetParams) -> Works:
     nipple = z - r - 0.012
     fixed.append(post(0.0125, nipple, z))
     start = nipple - SEAM
-    low = start - 0.034
+    low = start - 0.044
     path = SpoutPath(
         corners=(
             (0.0, start - 0.012),
@@ -197,21 +202,22 @@ def _top_lever(p: FaucetParams, z: float, r: float) -> Works:
     return Works(fixed=(turret,)) + mixer(p, seat(z + r + 0.010), wide, length=p.lever_length)
 
 
-def _neck(p: FaucetParams, foot: float, top: float, *, reach: float | None = None) -> SpoutPath:
+def _neck(
+    p: FaucetParams, foot: float, top: float, *, drop: float, reach: float | None = None
+) -> SpoutPath:
     """The tube of a swivelling spout from z = `foot`: an arc, a square one, or a swan neck."""
     over = p.reach if reach is None else reach
     radius = p.tube
     if p.curve == "square":
-        drop = max(0.03, 0.35 * p.drop)
-        corners = ((0.0, foot), (0.0, top), (-over, top), (-over, top - drop))
-        bend = 0.55 * min(over, drop)
-        path = SpoutPath(corners=corners, bends=(bend, bend), radius=radius, square=p.square)
-        return path
+        nose = max(0.03, 0.35 * p.drop)
+        corners = ((0.0, foot), (0.0, top), (-over, top), (-over, top - nose))
+        bend = 0.55 * min(over, nose)
+        return SpoutPath(corners=corners, bends=(bend, bend), radius=radius, square=p.square)
     if p.curve == "swan":
         low = top - 0.32 * over
         corners = ((0.0, foot), (0.0, top), (-0.75 * over, top - 0.02), (-over, low - 0.02))
         return SpoutPath(corners=corners, bends=(0.30 * over, 0.22 * over), radius=radius)
-    outlet = max(top - over / 2.0 - p.drop, foot + 0.05)
+    outlet = max(top - over / 2.0 - drop, foot + 0.05)
     lean = math.radians(p.lean)
     return gooseneck(foot=foot, top=top, reach=over, outlet=outlet, radius=radius, lean=lean)
 

@@ -188,12 +188,12 @@ def swivel_ring(radius: float, low: float, high: float, bore: float = 0.0) -> Bo
 def pull_out_spout(p: FaucetParams, path: SpoutPath, ring: tuple[Body, ...]) -> Works:
     """A swivelling spout whose end is a spray head on a hose."""
     (a, b), (c, d) = path.corners[-2:]
-    leg = math.hypot(c - a, d - b) - path.bends[-1] * math.tan(0.5 * _last_turn(path))
-    travel = min(p.pull, leg - 0.030)
+    leg = math.hypot(c - a, d - b) - path.bends[-1] * math.tan(0.5 * _last_turn(path)) - p.head
+    travel = min(p.pull, leg - 0.018)
     aim = path.aim
     start = tuple(e - (p.head + SEAM) * w for e, w in zip(path.end, aim, strict=True))
     pipe_path = replace(path, corners=(*path.corners[:-1], (start[1], start[2])))
-    bore = aimed(cylinder(0.0072, leg + 0.01, segments=14), _moved(start, aim, 0.004), _minus(aim))
+    bore = aimed(cylinder(0.0072, leg + 0.004, segments=14), _moved(start, aim, 0.004), _minus(aim))
     body = metal(0.0).piece(pipe_path.solid() - bore, contact=pipe_path.contact())
     spout = _spout_part((*ring, body), pipe_path)
     head = _spray_head(p, path.radius, _moved(start, aim, SEAM), aim, hose=travel + 0.012)
@@ -214,8 +214,10 @@ def pull_out_spout(p: FaucetParams, path: SpoutPath, ring: tuple[Body, ...]) -> 
 
 
 def _last_turn(path: SpoutPath) -> float:
-    (a, b), (c, d), (e, f) = path.corners[-3:]
-    return abs(math.atan2(d - b, c - a) - math.atan2(f - d, e - c)) % (2.0 * math.pi)
+    """Angle between the last two legs, rad."""
+    a, b, c = (np.array(corner) for corner in path.corners[-3:])
+    into, out = (b - a) / np.linalg.norm(b - a), (c - b) / np.linalg.norm(c - b)
+    return float(np.arccos(np.clip(into @ out, -1.0, 1.0)))
 
 
 def _moved(at: tuple[float, ...], aim: tuple[float, ...], by: float) -> tuple[float, float, float]:

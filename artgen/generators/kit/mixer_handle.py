@@ -167,9 +167,15 @@ class MixerHandle:
         """(lever, its contact piece), from inside the cap outwards, rising by `rise`."""
         reach = self.radius + self.length
         solid = _LEVERS[self.style](self.radius, reach, self.length)
-        lifted = solid.turned("x", -self.rise, about=(0.0, -self.radius, 0.0))
-        lifted = lifted.at(z=self.height - 0.0075)
-        return lifted, lifted.hull()
+        lower, upper = solid.bounds
+        ease = np.array([0.12 * (upper[0] - lower[0]), 0.0, 0.0])
+        upper[1] = min(upper[1], -self.ball - GAP)
+        around = slab(lower + ease, upper - ease)
+        lifted, contact = (
+            piece.turned("x", -self.rise, about=(0.0, -self.radius, 0.0)).at(z=self.height - 0.0075)
+            for piece in (solid, around)
+        )
+        return lifted, contact
 
     def _marks(self) -> tuple[Solid, Solid]:
         """A red and a blue spot side by side on the front of the cap."""

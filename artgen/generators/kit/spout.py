@@ -146,4 +146,10 @@ def slab_spout(
         middle = z[0] + (z[1] - z[0]) * share
         rings.append(np.c_[section[:, 0], np.full(len(section), y), middle + section[:, 1]])
     solid = loft(np.array(rings))
-    return solid, hull(np.concatenate(rings))
+    ends = [
+        (x * w / 2.0, y, middle + h * tall / 2.0)
+        for y, (w, tall), middle in ((start, root, z[0]), (-reach, tip, z[1]))
+        for x in (-0.9, 0.9)
+        for h in (-0.9, 0.9)
+    ]
+    return solid, hull(np.array(ends))
