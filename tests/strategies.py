@@ -14,6 +14,7 @@ from artgen.articulation.types import (
     ArticulatedObject,
     Joint,
     JointType,
+    Latch,
     Limit,
     Mass,
     Mimic,
@@ -90,6 +91,9 @@ def joints(draw: st.DrawFn, *, name: str, parent: str, child: str) -> Joint:
     reach = 3.0 if kind == "revolute" else 0.8
     amount = st.floats(0.0, 50.0)
     spring = st.builds(Spring, stiffness=st.floats(0.1, 50.0), reference=st.floats(-1.0, 1.0))
+    latch = st.builds(Latch, force=st.floats(0.1, 50.0), reach=st.floats(1e-3, 0.5))
+    limit = None if kind == "continuous" else draw(limits(reach))
+    shuts = limit is not None and limit.lower == 0.0
     return Joint(
         name=name,
         type=kind,
@@ -97,12 +101,13 @@ def joints(draw: st.DrawFn, *, name: str, parent: str, child: str) -> Joint:
         child=child,
         axis=draw(axes()),
         origin=draw(vectors()),
-        limit=None if kind == "continuous" else draw(limits(reach)),
+        limit=limit,
         friction=draw(amount),
         damping=draw(amount),
         effort=draw(st.floats(0.5, 200.0)),
         velocity=draw(st.floats(0.1, 10.0)),
         spring=draw(st.none() | spring),
+        latch=draw(st.none() | latch) if shuts else None,
     )
 
 
@@ -311,7 +316,7 @@ def drawer_unit() -> ArticulatedObject:
     )  # fmt: skip
     swing = hinge(
         "swing", "base", "door", axis=unit((0.02, 0.01, -1.0)), origin=(-0.29, -0.2, 0.0),
-        spring=Spring(stiffness=2.0, reference=-0.25),
+        spring=Spring(stiffness=2.0, reference=-0.25), latch=Latch(force=1.5, reach=0.04),
     )  # fmt: skip
     turn = hinge("turn", "door", "knob", type="continuous", limit=None, axis=(0.0, -1.0, 0.0),
                  origin=(0.215, 0.0, 0.415))  # fmt: skip

@@ -125,7 +125,7 @@ class Latch:
     """What keeps a closed end closed: a magnet, a ball catch, a detent.
 
     It pulls towards rest with `force` (N or N m) at q = 0, less in proportion up to `reach` (rad or
-    m), and not at all beyond.
+    m), and not at all beyond. Its joint goes one way from rest.
     """
 
     force: float
@@ -187,6 +187,10 @@ class Joint:
         if (self.limit is None) != (self.type == "continuous"):
             need = "has no" if self.limit else "needs a"
             raise KinematicError(f"joint {self.name}: a {self.type} joint {need} limit")
+        if self.latch is not None and (self.limit is None or self.limit.lower < 0.0):
+            raise KinematicError(
+                f"joint {self.name}: a latch holds a closed end; state a limit whose lower is 0"
+            )
         if min(self.friction, self.damping) < 0.0 or min(self.effort, self.velocity) <= 0.0:
             raise KinematicError(
                 f"joint {self.name}: friction {self.friction} and damping {self.damping} must "

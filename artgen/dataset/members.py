@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from artgen.articulation.targets import Targets
-from artgen.articulation.types import Joint, Limit, Mimic, Precondition, Spring
+from artgen.articulation.types import Joint, Latch, Limit, Mimic, Precondition, Spring
 from artgen.core.errors import ShardError
 from artgen.core.jsonio import canonical_json
 from artgen.dataset import codec
@@ -255,7 +255,7 @@ def _meta(facts: dict[str, Any]) -> SampleMeta:
 
 def _joint(facts: dict[str, Any]) -> Joint:
     def built(kind: type, key: str) -> Any:
-        return None if facts[key] is None else kind(**facts[key])
+        return None if facts.get(key) is None else kind(**facts[key])
 
     return Joint(
         **facts
@@ -264,6 +264,7 @@ def _joint(facts: dict[str, Any]) -> Joint:
             "origin": tuple(facts["origin"]),
             "limit": built(Limit, "limit"),
             "spring": built(Spring, "spring"),
+            "latch": built(Latch, "latch"),
             "mimic": built(Mimic, "mimic"),
         }
     )

@@ -10,6 +10,7 @@ import numpy as np
 
 from artgen.articulation.types import (
     Joint,
+    Latch,
     Limit,
     Mass,
     Mimic,
@@ -199,6 +200,7 @@ def _joint(entry: dict[str, Any]) -> Joint:
         "origin": tuple(entry["origin"]),
         "limit": None if lower is None else Limit(lower=lower, upper=upper),
         "spring": entry["spring"] and Spring(**entry["spring"]),
+        "latch": entry["latch"] and Latch(**entry["latch"]),
         "mimic": entry["mimic"] and Mimic(**entry["mimic"]),
     }
     return Joint(**{**plain, **typed})

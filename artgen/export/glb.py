@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from artgen.articulation.types import ArticulatedObject, Joint, Mimic, Part, Spring
+from artgen.articulation.types import ArticulatedObject, Joint, Latch, Mimic, Part, Spring
 from artgen.core.conventions import Y_UP_FROM_Z_UP
 from artgen.core.errors import ExportError
 from artgen.core.jsonio import plain
@@ -159,6 +159,7 @@ def joint_extras(joint: Joint) -> dict[str, Any]:
         "effort": joint.effort,
         "velocity": joint.velocity,
         "spring": joint.spring,
+        "latch": joint.latch,
         "mimic": joint.mimic,
     }
 
@@ -221,5 +222,6 @@ def _file_joint(stated: Mapping[str, Any], parent: str, child: str, pivot: Float
         effort=stated["effort"],
         velocity=stated["velocity"],
         spring=stated["spring"] and Spring(**stated["spring"]),
+        latch=stated["latch"] and Latch(**stated["latch"]),
         mimic=stated["mimic"] and Mimic(**stated["mimic"]),
     )

@@ -5,7 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from artgen.articulation.types import ArticulatedObject, Joint, JointType, Mimic, Spring, Vector
+from artgen.articulation.types import (
+    ArticulatedObject,
+    Joint,
+    JointType,
+    Latch,
+    Mimic,
+    Spring,
+    Vector,
+)
 from artgen.core.mesh import Floats
 
 
@@ -38,6 +46,7 @@ class FileJoint:
     effort: float | None
     velocity: float | None
     spring: Spring | None
+    latch: Latch | None
     mimic: Mimic | None
 
 
@@ -82,6 +91,7 @@ def as_file_joint(joint: Joint) -> FileJoint:
         effort=joint.effort,
         velocity=joint.velocity,
         spring=joint.spring,
+        latch=joint.latch,
         mimic=joint.mimic,
     )
 

@@ -1,11 +1,20 @@
 """MJCF: nested bodies at the joints, textured OBJ visuals, convex collision, stated inertia."""
 
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from artgen.articulation.types import ArticulatedObject, Joint, JointType, Mimic, Part, Spring
+from artgen.articulation.types import (
+    ArticulatedObject,
+    Joint,
+    JointType,
+    Latch,
+    Mimic,
+    Part,
+    Spring,
+)
 from artgen.core.mesh import Floats
 from artgen.export.kinematics import FileJoint, FileKinematics, FileMass, vector
 from artgen.export.layout import (
@@ -21,6 +30,8 @@ from artgen.export.numbers import exact, parsed
 
 VISUAL_GROUP, COLLISION_GROUP = "2", "3"
 KINDS = {"revolute": "hinge", "continuous": "hinge", "prismatic": "slide"}
+BEYOND = 1e10
+"""rad or m that no joint reaches; the far end of a tendon that is never stretched."""
 FULL_INERTIA = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
@@ -52,6 +63,8 @@ def mjcf_text(obj: ArticulatedObject) -> str:
         bodies[part.name][:0] = own
     if any(joint.mimic for joint in obj.joints):
         root.append(_equalities(obj))
+    if any(joint.latch for joint in obj.joints):
+        root.append(_latches(obj))
     ET.indent(root)
     return ET.tostring(root, encoding="unicode") + "\n"
 
@@ -156,10 +169,30 @@ def _equalities(obj: ArticulatedObject) -> ET.Element:
     return equality
 
 
+def _latches(obj: ArticulatedObject) -> ET.Element:
+    """Tendons along one joint each. MuJoCo pulls a tendon that is shorter than its spring's length
+    by stiffness times what it lacks; with a negative stiffness it shortens it further, which is
+    -force (1 - q / reach) up to `reach` and nothing beyond."""
+    tendons = ET.Element("tendon")
+    for joint in obj.joints:
+        if joint.latch is not None:
+            stiffness, lengths = -joint.latch.force / joint.latch.reach, (joint.latch.reach, BEYOND)
+            fixed = ET.SubElement(
+                tendons, "fixed", name=f"{joint.name}_latch", stiffness=exact(stiffness),
+                springlength=exact(lengths),
+            )  # fmt: skip
+            ET.SubElement(fixed, "joint", joint=joint.name, coef="1")
+    return tendons
+
+
 def load_kinematics(folder: Path) -> FileKinematics:
-    """Parts and joints of `folder`/asset.xml in the object frame; MJCF has no velocity limit."""
+    """Parts and joints of `folder`/asset.xml in the object frame; MJCF has no velocity limit.
+
+    A latch's force comes back within one rounding of a product.
+    """
     root = ET.parse(folder / MJCF).getroot()
     mimics = {e.attrib["joint1"]: _file_mimic(e) for e in root.iterfind("equality/joint")}
+    latches = dict(_file_latch(e) for e in root.iterfind("tendon/fixed"))
     masses: dict[str, FileMass | None] = {}
     joints: list[FileJoint] = []
     base = next(root.iterfind("worldbody/body"))
@@ -168,7 +201,8 @@ def load_kinematics(folder: Path) -> FileKinematics:
         body, parent, frame = waiting.pop(0)
         name, pivot = body.attrib["name"], frame + parsed(body.attrib["pos"])
         masses[name] = _file_mass(body, pivot)
-        joints += [_file_joint(e, parent, name, pivot, mimics) for e in body.iterfind("joint")]
+        own = [_file_joint(e, parent, name, pivot, mimics) for e in body.iterfind("joint")]
+        joints += [replace(joint, latch=latches.get(joint.name)) for joint in own]
         waiting += [(child, name, pivot) for child in body.iterfind("body")]
     return FileKinematics(base=base.attrib["name"], masses=masses, joints=tuple(joints))
 
@@ -176,6 +210,13 @@ def load_kinematics(folder: Path) -> FileKinematics:
 def _file_mimic(element: ET.Element) -> Mimic:
     offset, multiplier = parsed(element.attrib["polycoef"])[:2]
     return Mimic(joint=element.attrib["joint2"], multiplier=multiplier, offset=offset)
+
+
+def _file_latch(tendon: ET.Element) -> tuple[str, Latch]:
+    """The joint that a tendon of `_latches` runs along, and what it stands for."""
+    reach, stiffness = parsed(tendon.attrib["springlength"])[0], float(tendon.attrib["stiffness"])
+    joint = next(tendon.iterfind("joint")).attrib["joint"]
+    return joint, Latch(force=-stiffness * reach, reach=reach)
 
 
 def _file_mass(body: ET.Element, pivot: Floats) -> FileMass:
@@ -212,5 +253,6 @@ def _file_joint(
         effort=parsed(numbers["actuatorfrcrange"])[1],
         velocity=None,
         spring=spring,
+        latch=None,
         mimic=mimics.get(numbers["name"]),
     )

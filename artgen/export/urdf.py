@@ -60,7 +60,7 @@ def _collision_element(part: str, piece: BoxPiece | HullPiece, pivot: Floats) ->
 
 
 def joint_element(joint: Joint, parent_pivot: Floats) -> ET.Element:
-    """`<joint>`; effort and velocity are mandatory, springs have no place in URDF."""
+    """`<joint>`; effort and velocity are mandatory, springs and latches have no place in URDF."""
     element = ET.Element("joint", name=joint.name, type=joint.type)
     _origin(element, np.subtract(joint.origin, parent_pivot))
     ET.SubElement(element, "parent", link=joint.parent)
@@ -156,6 +156,7 @@ def _file_joint(element: ET.Element, frames: dict[str, Floats]) -> FileJoint:
         effort=float(limit["effort"]),
         velocity=float(limit["velocity"]),
         spring=None,
+        latch=None,
         mimic=None if mimic is None else _file_mimic(mimic),
     )
 

@@ -2,7 +2,7 @@
 
 UsdPhysics has no dry friction, coupling, effort or speed. Friction is stated in the published
 schemas of MuJoCo (`mjc:frictionloss`) and Newton (`newton:friction`), a coupling in Newton's and
-exactly in `artgen:` attributes, effort and speed in `artgen:` attributes, in SI units.
+exactly in `artgen:` attributes, effort, speed and latches in `artgen:` attributes, in SI units.
 """
 
 import json
@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdPhysics
 
-from artgen.articulation.types import Joint, JointType, Mimic, Precondition, Spring
+from artgen.articulation.types import Joint, JointType, Latch, Mimic, Precondition, Spring
 from artgen.core.errors import ExportError
 from artgen.core.mesh import Floats
 from artgen.export.kinematics import FileJoint, FileKinematics, FileMass, vector
@@ -89,6 +89,11 @@ def _add_facts(
         "artgen:effort": joint.effort,
         "artgen:velocity": joint.velocity,
     }
+    if joint.latch is not None:
+        numbers |= {
+            "artgen:latch:force": joint.latch.force,
+            "artgen:latch:reach": joint.latch.reach,
+        }
     if joint.mimic is not None:
         numbers |= _mimic_numbers(joint.mimic, unit)
         leader = prim.GetParent().GetPath().AppendChild(joint.mimic.joint)
@@ -176,7 +181,17 @@ def _file_joint(prim: Usd.Prim, frames: Mapping[str, Floats]) -> FileJoint:
         effort=prim.GetAttribute("artgen:effort").Get(),
         velocity=prim.GetAttribute("artgen:velocity").Get(),
         spring=Spring(stiffness=stiffness, reference=target) if stiffness > 0.0 else None,
+        latch=_file_latch(prim),
         mimic=_file_mimic(prim),
+    )
+
+
+def _file_latch(prim: Usd.Prim) -> Latch | None:
+    if not prim.HasAttribute("artgen:latch:force"):
+        return None
+    return Latch(
+        force=prim.GetAttribute("artgen:latch:force").Get(),
+        reach=prim.GetAttribute("artgen:latch:reach").Get(),
     )
 
 

@@ -38,6 +38,7 @@ class Effect(Enum):
     FRICTION = "friction loss"
     DAMPING = "damping"
     SPRING = "spring"
+    LATCH = "latch"
     ACTUATION = "actuation"
     EQUALITY = "equality"
     SENSOR = "sensor"
@@ -50,10 +51,12 @@ DISABLE_BITS: Mapping[Effect, int] = {
     Effect.FRICTION: mujoco.mjtDisableBit.mjDSBL_FRICTIONLOSS,
     Effect.DAMPING: mujoco.mjtDisableBit.mjDSBL_DAMPER,
     Effect.SPRING: mujoco.mjtDisableBit.mjDSBL_SPRING,
+    Effect.LATCH: mujoco.mjtDisableBit.mjDSBL_SPRING,
     Effect.ACTUATION: mujoco.mjtDisableBit.mjDSBL_ACTUATION,
     Effect.EQUALITY: mujoco.mjtDisableBit.mjDSBL_EQUALITY,
     Effect.SENSOR: mujoco.mjtDisableBit.mjDSBL_SENSOR,
 }
+"""Springs and latches go by one bit: neither can be had without the other."""
 LOSING = frozenset({Effect.CONTACT, Effect.LIMIT, Effect.FRICTION, Effect.DAMPING, Effect.EQUALITY})
 """What takes energy, or is too soft a constraint to give all of it back."""
 CONSTRAINTS = frozenset({Effect.CONTACT, Effect.LIMIT, Effect.FRICTION, Effect.EQUALITY})
@@ -125,6 +128,7 @@ def needed_effects(model: mujoco.MjModel, task: Task) -> Effects:
         _friction(model, loads),
         _damping(model, loads),
         _spring(model, loads),
+        _latch(model, loads),
         _actuation(model),
         _equality(model, loads),
         Call(Effect.SENSOR, False, "positions are read from the state itself"),
@@ -143,8 +147,10 @@ def only(model: mujoco.MjModel, effects: Effects) -> Iterator[None]:
     """Within, MuJoCo computes these effects alone."""
     before = int(model.opt.disableflags)
     flags = before
-    for effect, bit in DISABLE_BITS.items():
-        flags = flags & ~int(bit) if effect in effects.needed else flags | int(bit)
+    for bit in DISABLE_BITS.values():
+        flags |= int(bit)
+    for effect in effects.needed:
+        flags &= ~int(DISABLE_BITS[effect])
     if not effects.needed & CONSTRAINTS:
         flags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
     model.opt.disableflags = flags
@@ -164,7 +170,7 @@ class _Loads:
         for pose in _poses(model, task.start):
             self.weight = np.maximum(self.weight, np.abs(_weight(model, data, pose)))
         self.scale = NEGLIGIBLE * _moments(model)
-        at_start = -_weight(model, data, task.start) + _spring_force(model, task.start)
+        at_start = -_weight(model, data, task.start) + _spring_force(model, data, task.start)
         moving = np.zeros(model.nv) if task.velocity is None else np.abs(task.velocity)
         thrown = moving > 0.0
         pushed = np.isin(np.arange(model.nv), list(task.driven))
@@ -215,12 +221,20 @@ def _moments(model: mujoco.MjModel) -> Floats:
     return np.asarray(carried * gravity * max(float(model.stat.extent), NEGLIGIBLE))
 
 
-def _spring_force(model: mujoco.MjModel, pose: Floats) -> Floats:
-    """(nv,) of springs at a pose; zero for free bases, which have none."""
-    if model.nq != model.nv:
-        return np.zeros(model.nv)
-    force: Floats = model.jnt_stiffness[model.dof_jntid] * (model.qpos_spring - pose)
-    return force
+def _spring_force(model: mujoco.MjModel, data: mujoco.MjData, pose: Floats) -> Floats:
+    """(nv,) of springs and latches at a pose, N m or N."""
+    data.qpos[:] = pose
+    data.qvel[:] = 0.0
+    flags = int(model.opt.disableflags)
+    model.opt.disableflags = flags & ~int(mujoco.mjtDisableBit.mjDSBL_SPRING)
+    try:
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_tendon(model, data)
+        mujoco.mj_passive(model, data)
+    finally:
+        model.opt.disableflags = flags
+    return np.array(data.qfrc_spring)
 
 
 def _with_their_trees(model: mujoco.MjModel, stirred: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -282,6 +296,24 @@ def _spring(model: mujoco.MjModel, loads: _Loads) -> Call:
         return Call(Effect.SPRING, True, "a medium or a counterweight acts with the springs")
     sprung = (model.jnt_stiffness[model.dof_jntid] != 0.0) & loads.stirring
     return _acting(Effect.SPRING, sprung, "works against a spring", "has a spring and moves")
+
+
+def _latch(model: mujoco.MjModel, loads: _Loads) -> Call:
+    """A tendon with a spring of its own; latches are those along one joint."""
+    held = latched(model) & loads.stirring
+    return _acting(Effect.LATCH, held, "is held by a latch or tendon", "has a latch and moves")
+
+
+def latched(model: mujoco.MjModel) -> NDArray[np.bool_]:
+    """(nv,) whether a tendon with stiffness pulls at each degree of freedom."""
+    sprung = np.zeros(model.nv, bool)
+    for tendon in np.flatnonzero(model.tendon_stiffness):
+        first, count = model.tendon_adr[tendon], model.tendon_num[tendon]
+        own = slice(first, first + count)
+        if (model.wrap_type[own] != mujoco.mjtWrap.mjWRAP_JOINT).any():
+            return np.ones(model.nv, bool)  # It runs through space, and may pull anywhere.
+        sprung[model.jnt_dofadr[model.wrap_objid[own]]] = True
+    return sprung
 
 
 def _actuation(model: mujoco.MjModel) -> Call:

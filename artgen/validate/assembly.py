@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from artgen.articulation.types import Joint, Limit, Mass, Mimic, Spring
+from artgen.articulation.types import Joint, Latch, Limit, Mass, Mimic, Spring
 from artgen.core.errors import KinematicError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.transform import apply
@@ -50,6 +50,7 @@ class FileJoint:
     parent_from_joint: Floats
     anchor: Floats | None = None
     spring: Spring | None = None
+    latch: Latch | None = None
     mimic: Mimic | None = None
 
 
@@ -147,6 +148,7 @@ def _joint(joint: FileJoint, parent: str, pose: Floats) -> Joint:
         effort=np.inf if stated.effort is None else stated.effort,
         velocity=np.inf if stated.velocity is None else stated.velocity,
         spring=joint.spring,
+        latch=joint.latch,
         mimic=joint.mimic,
     )
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from artgen.core.mesh import TriMesh
 from artgen.core.transform import apply, inverted
+from artgen.export.mjcf import BEYOND
 from artgen.validate.assembly import Assembly, Geometry
 from artgen.validate.physics import quiet
 from artgen.validate.subject import SubjectPart
@@ -30,7 +31,7 @@ def built_spec(
     for part in assembly.parts:
         bodies[part.name] = _add_body(spec, assembly, part, bodies)
     for joint in assembly.joints:
-        _add_joint(bodies[joint.child], assembly, joint.name)
+        _add_joint(spec, bodies[joint.child], assembly, joint.name)
     for number, (shape, mesh) in enumerate(contact_meshes.items()):
         if isinstance(mesh, str):
             raise ValueError(f"{shape.label}: {mesh}")
@@ -65,7 +66,7 @@ def _add_body(
     return body
 
 
-def _add_joint(body: mujoco.MjsBody, assembly: Assembly, name: str) -> None:
+def _add_joint(spec: mujoco.MjSpec, body: mujoco.MjsBody, assembly: Assembly, name: str) -> None:
     joint = next(j for j in assembly.joints if j.name == name)
     own = inverted(assembly.links[joint.child].object_from_link)
     slides = joint.type == "prismatic"
@@ -78,5 +79,12 @@ def _add_joint(body: mujoco.MjsBody, assembly: Assembly, name: str) -> None:
     added.damping[0], added.frictionloss = joint.damping, joint.friction
     if joint.spring is not None:
         added.stiffness[0], added.springref = joint.spring.stiffness, joint.spring.reference
+    if joint.latch is not None:
+        catch = spec.add_tendon(
+            name=f"{name}_latch",
+            stiffness=-joint.latch.force / joint.latch.reach,
+            springlength=(joint.latch.reach, BEYOND),
+        )
+        catch.wrap_joint(name, 1.0)
     if joint.limit is not None:
         added.range = (joint.limit.lower, joint.limit.upper)

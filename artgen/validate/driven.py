@@ -8,7 +8,7 @@ import numpy as np
 
 from artgen.articulation.types import Joint
 from artgen.core.mesh import Floats
-from artgen.simulation.effects import Task, needed_effects, only
+from artgen.simulation.effects import Task, latched, needed_effects, only
 from artgen.validate.bounds import Bound
 from artgen.validate.physics import coarse_step, simulating, warnings_of
 from artgen.validate.report import Finding, Simulated, Skipped
@@ -223,6 +223,7 @@ def _fine_step(model: mujoco.MjModel, data: mujoco.MjData, q: Floats) -> float:
     data.qpos[:], data.qvel[:] = q, 0.0
     mujoco.mj_forward(model, data)
     mujoco.mj_fullM(model, data, mass)
-    pull = np.abs(data.qfrc_bias) + model.jnt_stiffness
+    stiff = model.jnt_stiffness + np.abs(model.tendon_stiffness).max(initial=0.0) * latched(model)
+    pull = np.abs(data.qfrc_bias) + stiff
     rate = math.sqrt(float((pull * np.diag(np.linalg.inv(mass))).max())) + PUSH
     return min(0.01, 2.0 * math.pi / rate / STEPS_A_PERIOD)

@@ -94,7 +94,7 @@ def coarse_step(model: mujoco.MjModel) -> float:
     """The step of `COARSE`, or the model's own where springs need it or it is coarser."""
     return (
         float(model.opt.timestep)
-        if model.jnt_stiffness.any()
+        if model.jnt_stiffness.any() or model.tendon_stiffness.any()
         else max(COARSE, float(model.opt.timestep))
     )
 

@@ -74,6 +74,7 @@ JOINT = {
     "effort": number,
     "velocity": number,
     "spring": optional(table({"stiffness": number, "reference": number})),
+    "latch": optional(table({"force": number, "reach": number})),
     "mimic": optional(table({"joint": text, "multiplier": number, "offset": number})),
 }
 PRECONDITION = {"joint": text, "requires": text, "at_least": number}

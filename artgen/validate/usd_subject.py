@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics
 
-from artgen.articulation.types import Spring
+from artgen.articulation.types import Latch, Spring
 from artgen.core.errors import ArtgenError, ExportError, GeometryError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.transform import apply, inverted, rigid
@@ -201,6 +201,7 @@ class UsdSubject(ForeignSubject):
             parent_from_joint=inverted(above) @ pose,
             anchor=apply(pose, place),
             spring=drive.spring,
+            latch=_latch(prim),
         )
 
     @property
@@ -300,6 +301,14 @@ def _first(prim: Usd.Prim, names: Sequence[str]) -> float | None:
     """The first of some attributes that holds a number."""
     values = (prim.GetAttribute(name).Get() for name in names if prim.HasAttribute(name))
     return next((float(v) for v in values if isinstance(v, int | float)), None)
+
+
+def _latch(prim: Usd.Prim) -> Latch | None:
+    """What we state of a catch, if its numbers make one."""
+    force, reach = (_first(prim, (f"artgen:latch:{word}",)) for word in ("force", "reach"))
+    if force is None or reach is None or not min(force, reach) > 0.0:
+        return None
+    return Latch(force=force, reach=reach)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -28,7 +28,7 @@ from tests.strategies import READY, objects, states
 FLOAT32 = 2.0**-24
 """Half a unit in the last place: the relative error of one rounding to float32."""
 TEXT = ("urdf", "mjcf")
-SILENT = {"urdf": ("spring",), "mjcf": ("velocity",)}
+SILENT = {"urdf": ("spring", "latch"), "mjcf": ("velocity",)}
 """What a format has no place for."""
 
 
@@ -77,9 +77,17 @@ def assert_same_physics(found: FileJoint, own: FileJoint, *, rtol: float) -> Non
         # Damping below float32's range (1e-38) reads as zero.
         assert_allclose(getattr(found, field), getattr(own, field), rtol=rtol, atol=1e-37)
     assert (found.spring is None, found.mimic) == (own.spring is None, own.mimic)
+    assert_same_latch(found, own, rtol=rtol)
     if found.spring and own.spring:
         assert_allclose(found.spring.stiffness, own.spring.stiffness, rtol=rtol)
         assert_allclose(found.spring.reference, own.spring.reference, rtol=rtol, atol=1e-37)
+
+
+def assert_same_latch(found: FileJoint, own: FileJoint, *, rtol: float) -> None:
+    assert (found.latch is None) == (own.latch is None)
+    if found.latch and own.latch:
+        assert found.latch.reach == own.latch.reach
+        assert_allclose(found.latch.force, own.latch.force, rtol=rtol)
 
 
 # ---------------------------------------------------------------------------------- exact formats
@@ -105,6 +113,8 @@ def test_text_formats_state_every_number_exactly(
                     assert getattr(joint, field) is None
                 else:
                     assert getattr(joint, field) == getattr(own, field)
+            if "latch" not in SILENT[kind]:  # MJCF states force / reach: two roundings.
+                assert_same_latch(joint, own, rtol=2.0**-52)
             assert_allclose(joint.origin, own.origin, rtol=0, atol=8 * 8 * 2.0**-53)
 
 
@@ -234,6 +244,7 @@ def test_mjcf_has_the_joint_physics(written: tuple[ArticulatedObject, Path]) -> 
             assert found.stiffness[0] == joint.spring.stiffness
             assert model.qpos_spring[found.qposadr[0]] == joint.spring.reference
     assert model.neq == sum(joint.mimic is not None for joint in obj.joints)
+    assert model.ntendon == sum(joint.latch is not None for joint in obj.joints)
 
 
 # ---------------------------------------------------------------------------------- files
