@@ -63,6 +63,8 @@ ROLES: Mapping[str, Role] = {
     "shelf": Role(meaning="a plate that slides out", sliding=DRAWER, closes=True),
     "bin": Role(meaning="a container that is taken out", sliding=(1.0, 50.0), closes=True),
     "basket": Role(meaning="a container of wire or mesh", sliding=(1.0, 50.0), closes=True),
+    "jug": Role(meaning="holds a liquid; lifted off the base it stands on", sliding=(0.2, 50.0),
+                closes=True),
     # What a hand takes hold of.
     "handle": Role(
         meaning="carries or moves the whole object: bails, folding and telescopic handles",
