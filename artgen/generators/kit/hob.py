@@ -113,7 +113,8 @@ def _ceramic(hob: Hob) -> tuple[Body, ...]:
 
 def _plates(hob: Hob) -> tuple[Body, ...]:
     """Cast-iron hotplates in steel rims, each with its recessed middle."""
-    rims, plates, touch = [], [], []
+    rims, plates = [], []
+    touch: list[Solid] = []
     for (x, y), radius in zip(hob.places, hob.zones, strict=True):
         r = 0.92 * radius
         rims.append(tube(r + 0.005, r, 0.007, segments=36).at(x, y, hob.top - 0.001))

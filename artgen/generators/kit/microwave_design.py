@@ -8,7 +8,7 @@ from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.dial import DialStyle
 from artgen.generators.kit.glass_turntable import GlassTurntable
 from artgen.generators.kit.heel_door import HeelDoor
-from artgen.generators.kit.oven_panel import OvenPanel
+from artgen.generators.kit.control_panel import ControlPanel
 from artgen.generators.kit.window_leaf import Window
 
 SEAM = 0.0018
@@ -135,13 +135,13 @@ class MicrowaveParams:
         return (-self.half, self.face, self.split), high
 
     @cached_property
-    def panel(self) -> OvenPanel:
+    def panel(self) -> ControlPanel:
         """What is on it."""
         (x0, y0, z0), (x1, _, z1) = self.panel_block
         inset = SCOOP + BORDER if self.opening == "scoop" else BORDER
         low = (x0 + inset, z0 + BORDER) if self.form == "side" else (x0 + BORDER, z0 + inset)
         size = (x1 - BORDER - low[0], z1 - BORDER - low[1])
-        return OvenPanel(
+        return ControlPanel(
             plane=PanelPlane(
                 origin=(low[0], y0, low[1]), right=(1.0, 0.0, 0.0), up=(0.0, 0.0, 1.0), size=size
             ),

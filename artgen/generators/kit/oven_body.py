@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from artgen.articulation.types import Body
+from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
 from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.density import ABS, ALUMINIUM, GLASS, RUBBER, STEEL
@@ -173,7 +174,7 @@ def _seal(cavity: LinedCavity) -> Solid:
     """A ring around the mouth."""
     (x0, _, z0), (x1, _, z1) = cavity.low, cavity.high
 
-    def outline(grown: float) -> np.ndarray:
+    def outline(grown: float) -> Floats:
         return rounded_rectangle(
             z1 - z0 + 2 * grown, x1 - x0 + 2 * grown, cavity.corner + grown, segments=4
         )

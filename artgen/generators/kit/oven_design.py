@@ -12,7 +12,7 @@ from artgen.generators.kit.dial import DialStyle
 from artgen.generators.kit.heel_door import HeelDoor
 from artgen.generators.kit.hob import Hob, zone_radii
 from artgen.generators.kit.lined_cavity import LinedCavity
-from artgen.generators.kit.oven_panel import OvenPanel
+from artgen.generators.kit.control_panel import ControlPanel
 from artgen.generators.kit.oven_rack import OvenRack, RackLadders
 from artgen.generators.kit.window_leaf import Window
 
@@ -172,11 +172,11 @@ class OvenParams:
         )
 
     @cached_property
-    def panel(self) -> OvenPanel:
+    def panel(self) -> ControlPanel:
         """The controls above the door."""
         border = 0.003
         kind = self.range_console if self.is_range else self.console
-        return OvenPanel(
+        return ControlPanel(
             plane=PanelPlane(
                 origin=(-self.half + border, self.face, self.split + border),
                 right=(1.0, 0.0, 0.0),

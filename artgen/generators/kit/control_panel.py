@@ -1,6 +1,7 @@
-"""Control panels of small ovens, upright beside the door or lying above it: what they carry, how
-it is printed, and the dials and buttons that stand on them."""
+"""Control panels of ovens and washers, upright beside the door or lying above it: what they carry,
+how it is printed, and the dials and buttons that stand on them."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -38,6 +39,9 @@ CELLS: Mapping[str, Mapping[str, float]] = {
               "right_front_knob": 1.0},
     "range_plain": {"left_front_knob": 1.0, "left_rear_knob": 1.0, "right_rear_knob": 1.0,
                     "right_front_knob": 1.0, "brand": 1.1, "oven_knob": 1.3},
+    "washer": {"brand": 1.5, "program_knob": 1.9, "display": 1.6, "buttons": 1.7},
+    "washer_right": {"brand": 1.5, "display": 1.6, "buttons": 1.7, "program_knob": 1.9},
+    "washer_touch": {"brand": 1.4, "touch_left": 1.5, "display": 1.8, "touch_right": 1.9},
 }  # fmt: skip
 """What a panel carries from its upper or left end, and how much of its length each takes."""
 RELEASE = 1.5
@@ -46,10 +50,14 @@ SCALES: Mapping[str, tuple[str, ...]] = {
     "timer": ("0", "5", "10", "15", "20", "25", "30"),
     "oven": ("0", "50", "100", "150", "200", "250"),
     "function": ("0", "I", "II", "III", "IV", "V", "VI"),
+    "program": ("0", "90", "60", "40", "30", "20", "E"),
     "left": ("0", "1", "2", "3", "4", "5", "6"),
     "right": ("0", "1", "2", "3", "4", "5", "6"),
 }
 """Numerals around a dial by the first word of its name: W, minutes, degrees Celsius, steps."""
+SWEEP = math.radians(270.0)
+TURN = math.radians(300.0)
+"""What the scale of a dial without stops covers."""
 LEAST = 0.012
 """m; radius of the smallest dial."""
 KEYS = ("POPCORN", "PIZZA", "POTATO", "REHEAT", "DEFROST", "1", "2", "3", "4", "5", "6", "7", "8",
@@ -62,7 +70,7 @@ SUNK = 0.0006
 
 
 @dataclass(frozen=True, kw_only=True)
-class OvenPanel:
+class ControlPanel:
     """A panel's face and what is on it.
 
     Attributes:
@@ -75,6 +83,7 @@ class OvenPanel:
         brand: index of the brand's word.
         time: shown by the display.
         led: color of the display.
+        endless: dials turn on without stops.
     """
 
     plane: PanelPlane
@@ -86,6 +95,7 @@ class OvenPanel:
     brand: int
     time: str
     led: str
+    endless: bool = False
 
     @property
     def upright(self) -> bool:
@@ -110,14 +120,14 @@ class OvenPanel:
     @cached_property
     def dials(self) -> list[Dial]:
         """Knobs on their shafts."""
-        found = []
+        found: list[Dial] = []
         for name, (center, size) in self.cells.items():
             if name.endswith(("dial", "knob")):
                 radius = max(LEAST, self.dial_share * min(size))
                 found.append(
                     Dial(name=name, center=center, radius=radius, height=0.6 * radius + 0.008,
                          style=self.dial, label="knob" if name.endswith("knob") else "dial",
-                         lift=PLATE - SUNK)
+                         sweep=None if self.endless else SWEEP, lift=PLATE - SUNK)
                 )  # fmt: skip
         return found
 
@@ -207,7 +217,7 @@ class OvenPanel:
             scale = SCALES[dial.name.split("_")[0]]
             cap = min(0.0042, 0.13 * dial.radius)
             marks += dial_scale(dial.center, dial.radius + 0.0025, scale, cap=cap, ink=ink,
-                                start=dial.start, sweep=dial.sweep)  # fmt: skip
+                                start=dial.start, sweep=dial.sweep or TURN)  # fmt: skip
         return marks
 
     def _button_marks(self, ink: str) -> list[str]:
