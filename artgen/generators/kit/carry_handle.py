@@ -3,15 +3,19 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from artgen.articulation.types import DraftPart, Grip, Joint, Limit, Spring, Vector
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.cabinet_movers import Works
-from artgen.geometry.solid import Solid, chamfered_box, slab
+from artgen.geometry.solid import Solid, chamfered_box, hull, slab
 
-RISE, LEG = 0.010, 0.0126
+RISE, LEG = 0.008, 0.0098
 """Stroke, and length of the legs in their brackets, m."""
-BRACKET = (0.030, 0.026, 0.016)
+BRACKET = (0.036, 0.027, 0.012)
 """Along the bar, across it, and up from the case, m."""
+THICK = 0.013
+"""Of the bar in its middle, m."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,19 +43,20 @@ def carry_handle(h: CarryHandle) -> Works:
     slot = (0.0100, h.girth - 0.006)
     brackets, walls, legs = [], [], []
     for x in (-middle, middle):
-        block = chamfered_box(BRACKET, 0.002, at=(x, 0.0, 0.0))
+        block = chamfered_box(BRACKET, 0.0034, at=(x, 0.0, 0.0))
         hole = _block(x, (slot[0] + 0.0022, slot[1] + 0.0022), 0.002, 1.0)
         brackets.append(block - hole)
         a, c = BRACKET[0] / 2.0, (slot[0] + 0.0022) / 2.0
         walls += [_between(x - a, x - c), _between(x + c, x + a)]
         legs.append(_block(x, slot, BRACKET[2] - LEG, BRACKET[2] + 0.004))
     low = BRACKET[2] + 0.0014
-    bar = chamfered_box((h.length, h.girth, 0.010), 0.003, at=(0.0, 0.0, low))
+    bar = _bar(h, low)
     reach = slab(
-        (-h.length / 2 + 0.001, -h.girth / 2, low), (h.length / 2 - 0.001, h.girth / 2, low + 0.01)
+        (-h.length / 2 + 0.001, -h.girth / 2, low),
+        (h.length / 2 - 0.001, h.girth / 2, low + 0.7 * THICK),
     )
     up: Vector = (1.0, 0.0, 0.0) if h.side else (0.0, 0.0, 1.0)
-    middle_up = low + 0.005
+    middle_up = low + THICK / 2.0
     hold = tuple(c + middle_up * u for c, u in zip(h.place, up, strict=True))
     part = DraftPart(
         name=h.name,
@@ -90,6 +95,25 @@ def carry_handle(h: CarryHandle) -> Works:
         for bracket, near in zip(brackets, contacts, strict=True)
     )
     return Works(parts=(part,), joints=(joint,), base=base)
+
+
+def _bar(h: CarryHandle, low: float) -> Solid:
+    """Thick and round in the middle, thin at its ends."""
+    end, wide = h.length / 2.0, h.girth / 2.0
+    points = [
+        (sx * x, sy * y, low + z)
+        for x, y, z in (
+            (end, wide - 0.003, 0.0),
+            (end, wide - 0.001, 0.0025),
+            (end - 0.002, wide - 0.004, 0.0045),
+            (end - 0.034, wide, 0.006),
+            (end - 0.030, wide - 0.005, THICK),
+            (end - 0.030, wide - 0.001, 0.0),
+        )
+        for sx in (-1.0, 1.0)
+        for sy in (-1.0, 1.0)
+    ]
+    return hull(np.asarray(points))
 
 
 def _block(x: float, size: tuple[float, float], low: float, high: float) -> Solid:

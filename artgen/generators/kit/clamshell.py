@@ -124,7 +124,7 @@ def contact(h: HalfShell) -> list[Solid]:
             pieces.append(slab((x0, near, z0), (x1, far, z1)))
     edge = _clip(h.round)
     pieces.append(
-        slab((-x + edge, -h.depth, low + edge), (x - edge, -h.depth + t + 0.001, high - edge))
+        slab((-x + edge, -h.depth - 0.5 * h.rib, low + edge), (x - edge, -h.depth + t, high - edge))
     )
     return pieces
 
@@ -199,7 +199,7 @@ def _ridge(
     for wide, pull, out in (
         (half, 0.0, -0.001),
         (half, 0.0, 0.0),
-        (0.55 * half, 2.2 * h.rib, h.rib),
+        (0.70 * half, 2.2 * h.rib, h.rib),
     ):
         for end, sign in ((a, 1.0), (b, -1.0)):
             for side in (-1.0, 1.0):

@@ -133,10 +133,10 @@ def _latch(h: HalfShell, name: str, z: float, metal: Stock) -> Works:
         axis=(0.0, 0.0, 1.0),  # +q swings the lever's end, which points to -y, out to +x.
         origin=(x, y, 0.0),
         limit=Limit(lower=0.0, upper=math.radians(115.0)),
-        friction=0.06,
-        damping=0.01,
+        friction=0.08,
+        damping=0.02,
         effort=3.0,
-        latch=Latch(force=0.5, reach=0.35),
+        latch=Latch(force=0.12, reach=0.3),
     )
     grip = Grip(
         name=f"{name}_lever",

@@ -17,6 +17,7 @@ from artgen.generators.kit.clamshell import (
 )
 from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.density import ABS, ALUMINIUM, POLYPROPYLENE, RUBBER, ZINC
+from artgen.generators.kit.door_leaf import pierced
 from artgen.generators.kit.printed import plate, printed, words
 from artgen.generators.kit.suitcase_params import SuitcaseParams
 from artgen.generators.kit.telescope import Telescope, pocket, pocket_room
@@ -81,8 +82,7 @@ def rear_half(
         mirrored_body(body)
         for body in (*half_shell(rear, stocks["shell"], stocks["lining"]), *_rim(p, rear, stocks))
     ]
-    cut = [Stock(surface=b.surface, density=b.density, edge=b.edge).piece(
-        b.solid - room, contact=b.collision, grain=b.grain) for b in shell]  # fmt: skip
+    cut = pierced(tuple(shell), room, clear=room)
     straps = crossed_straps(rear, 0.018, stocks["strap"], stocks["plastic"])
     return (*cut, *pocket(handle), *straps)
 
