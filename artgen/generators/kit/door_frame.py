@@ -10,7 +10,7 @@ from artgen.articulation.types import Body
 from artgen.core.mesh import Floats
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.front_layout import Rect
-from artgen.geometry.solid import Solid, loft, slab
+from artgen.geometry.solid import Solid, loft, prism, slab, upright
 
 Casing = Literal["flat", "bevel", "ogee", "stepped", "square_head"]
 Profile = Sequence[tuple[float, float]]
@@ -51,8 +51,11 @@ class DoorFrame:
 
     def bodies(self, wood: Stock, seal: Stock) -> tuple[Body, ...]:
         """Lining, stops, seal and architraves of both faces."""
-        trims = [body for front in (True, False) for body in self._casing(wood, front=front)]
-        return (*self._lining(wood), *self._stops(wood, seal), *trims)
+        return (*self._lining(wood), *self._stops(wood, seal), *self.trims(wood))
+
+    def trims(self, wood: Stock) -> tuple[Body, ...]:
+        """Architraves of both faces."""
+        return (*self._casing(wood, front=True), *self._casing(wood, front=False))
 
     def _lining(self, wood: Stock) -> list[Body]:
         o, t = self.opening, self.lining
@@ -111,17 +114,26 @@ class DoorFrame:
 
 def _standing(inner: Rect, section: Floats, *, mitred: bool) -> Solid:
     """The architrave left of an opening, in front of y = 0, its top cut at 45 degrees."""
-    u, v = section.T
-    x, y = inner.x0 - u, -v
-    top = inner.z1 + (u if mitred else 0.0 * u)
-    return loft([np.c_[x, y, 0.0 * u], np.c_[x, y, top]])
+    w, x, z = float(section[:, 0].max()), inner.x0, inner.z1
+    bar = prism(np.array((x, 0.0)) - section, z + w)
+    return bar & _mitre([(0.0, x - w), (0.0, x), (z, x), (z + (w if mitred else 0.0), x - w)])
 
 
 def _across(inner: Rect, section: Floats) -> Solid:
     """The architrave over an opening, both ends cut at 45 degrees."""
-    u, v = section.T
-    rings = [np.c_[inner.x0 - u, -v, inner.z1 + u], np.c_[inner.x1 + u, -v, inner.z1 + u]]
-    return loft([ring[::-1] for ring in rings])
+    w, z = float(section[:, 0].max()), inner.z1
+    length = inner.width + 2.0 * w
+    bar = upright(prism(section[:, ::-1] * (-1.0, 1.0) + (0.0, z), length), "x")
+    ends = [(z, inner.x0), (z, inner.x1), (z + w, inner.x1 + w), (z + w, inner.x0 - w)]
+    return bar.at(inner.x0 - w) & _mitre(ends)
+
+
+def _mitre(outline: Sequence[tuple[float, float]]) -> Solid:
+    """An outline in (z, x), clockwise or not, through all depths."""
+    points = np.array(outline)
+    ahead = np.roll(points, -1, axis=0)
+    area = float((points[:, 0] * ahead[:, 1] - ahead[:, 0] * points[:, 1]).sum())
+    return upright(prism(points if area > 0.0 else points[::-1], 2.0), "y").at(0.0, -1.0, 0.0)
 
 
 def _square_head(inner: Rect, width: float, thickness: float) -> tuple[Solid, ...]:

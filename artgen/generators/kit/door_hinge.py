@@ -60,7 +60,7 @@ class DoorHinge:
         spans = self._spans(turning)
         x, y = self.axis
         solids = [
-            cylinder(self.radius, top - low, segments=16).at(x, y, z + low) for low, top in spans
+            cylinder(self.radius, top - low, segments=12).at(x, y, z + low) for low, top in spans
         ]
         if self.kind == "butt":
             solids.append(
@@ -74,22 +74,22 @@ class DoorHinge:
                 )
             )
         for low, top in spans:
-            reach = PLATE if self.kind == "butt" else 0.008
-            depth = 0.002 if self.kind == "butt" else 0.010
-            arm = slab(
-                (min(edge, edge + way * reach), y, z + low),
-                (max(edge, edge + way * reach), self.face + depth, z + top),
-            )
-            solids.append(
-                arm if self.kind == "butt" else self._pin(edge, way, z + (low + top) / 2.0)
-            )
+            solids.append(self._tail(edge, way, z + low, z + top))
         if self.finials:
             solids += self._finials(z, turning)
         return metal.piece(union(solids))
 
+    def _tail(self, edge: float, way: float, low: float, top: float) -> Solid:
+        """From a knuckle back to the plate, or the threaded arm of a drill-in hinge."""
+        if self.kind == "drill_in":
+            return self._pin(edge, way, (low + top) / 2.0)
+        near, far = edge + way * 0.0002, edge + way * 0.8 * PLATE
+        y = self.axis[1]
+        return slab((min(near, far), y, low), (max(near, far), self.face + 0.002, top))
+
     def _spans(self, turning: bool) -> list[tuple[float, float]]:
-        """Heights of the knuckles of one side: five in turn, or one above the other."""
-        count = 5 if self.kind == "butt" else 2
+        """Heights of the knuckles of one side: three in turn, or one above the other."""
+        count = 3 if self.kind == "butt" else 2
         step = self.height / count
         spans = [
             (
@@ -115,11 +115,11 @@ class DoorHinge:
 
     def _finials(self, z: float, turning: bool) -> list[Solid]:
         x, y = self.axis
-        ball = arc((0.0, 0.0), 1.0, -math.pi / 2.0 + 0.6, math.pi / 2.0, 6) * self.radius * 0.95
+        ball = arc((0.0, 0.0), 1.0, -math.pi / 2.0 + 0.6, math.pi / 2.0, 4) * self.radius * 0.95
         ball[-1, 0] = 0.0
         cap = revolve(
             [(0.0, ball[0, 1] - 0.002), (ball[0, 0], ball[0, 1] - 0.002), *ball.tolist()],
-            segments=14,
+            segments=10,
         )
         cap = cap.at(0.0, 0.0, self.radius * 0.8)
         bottom, top = (

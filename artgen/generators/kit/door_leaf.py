@@ -129,16 +129,14 @@ class LeafMaker:
         return stock.piece(cut, contact=(whole,), grain="z")
 
     def _beads(self, hole: Rect, front: float, inset: float) -> list[Body]:
-        """A frame of beads on each face, `inset` below it, around what fills the hole."""
+        """A frame of sloped beads on each face, `inset` below it, around what fills the hole."""
         core = 0.5 * self.thickness - inset - 0.0065
-        inner = hole.shrunk(self.bead)
-        ring = slab((hole.x0, 0.0, hole.z0), (hole.x1, core, hole.z1)) - slab(
-            (inner.x0, -1.0, inner.z0), (inner.x1, 1.0, inner.z1)
-        )
-        rear = front + self.thickness - inset - core
+        ring = slab((hole.x0, 0.0, hole.z0), (hole.x1, core, hole.z1))
+        ring = ring - _funnel(hole.shrunk(0.003), hole.shrunk(self.bead), 1.02 * core)
+        rear, plain = self.thickness - inset, replace(self.stock, edge=0.0)
         return [
-            replace(self.stock, edge=0.0035).piece(ring.at(0.0, y, 0.0), grain="z")
-            for y in (front + inset, rear)
+            plain.piece(ring.at(0.0, front + inset, 0.0), grain="z"),
+            plain.piece(ring.mirrored("y").at(0.0, front + rear, 0.0), grain="z"),
         ]
 
     def _panel(self, hole: Rect, front: float) -> list[Body]:
@@ -194,6 +192,14 @@ class LeafMaker:
         contact = _plate(hole, middle, 0.007)
         slats = union([slat.at(0.0, middle, z) for z in heights])
         return [plain.piece(slats, contact=(contact,), grain="x")]
+
+
+def _funnel(wide: Rect, narrow: Rect, depth: float) -> Solid:
+    """From `wide` at y = 0 (and before it) to `narrow` at y = `depth`."""
+    ends = ((wide, -0.01), (wide, 0.0), (narrow, 0.75 * depth), (narrow, depth))
+    return hull([(x, y, z) for r, y in ends for x in (r.x0, r.x1) for z in (r.z0, r.z1)]) | slab(
+        (narrow.x0, 0.0, narrow.z0), (narrow.x1, depth + 0.01, narrow.z1)
+    )
 
 
 def _plate(rect: Rect, middle: float, half: float) -> Solid:

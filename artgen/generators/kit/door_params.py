@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.density import GLASS, STEEL
@@ -10,11 +10,22 @@ from artgen.generators.kit.door_frame import REVEAL, Casing
 from artgen.generators.kit.door_hinge import DoorHinge, HingeKind
 from artgen.generators.kit.door_leaf import LAYOUTS, LeafMaker
 from artgen.generators.kit.lever_handle import LeverSet, LeverStyle, Lock, Plate
+from artgen.generators.kit.swing_leaf import Metals
 
 GAP = 0.0036
 """m; between a leaf and its lining."""
+MEETING = 0.005
+"""m; between the leaves of a double door."""
 UNDER = 0.008
 """m; below a leaf, to the floor or the sill."""
+
+HARDWARE = Stock(surface="metal", density=STEEL, edge=0.0006)
+METALS = Metals(
+    handle=HARDWARE,
+    hinge=replace(HARDWARE, edge=0.0),
+    lock=Stock(surface="lock", density=7000.0, edge=0.0),
+    dark=Stock(surface="dark", density=1100.0),
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,6 +68,7 @@ class DoorParams:
     casing_width: float
     casing_proud: float
     sill: str
+    frame_matches: bool
     in_wall: bool
     wall_side: float
     wall_above: float
@@ -130,11 +142,6 @@ def lever_set(p: DoorParams, edge: float) -> LeverSet:
         at=(edge - p.backset, p.handle_height),
         faces=(0.0, p.leaf_thickness),
     )
-
-
-def metal(surface: str) -> Stock:
-    """Ironmongery of steel or brass."""
-    return Stock(surface=surface, density=STEEL, edge=0.0006)
 
 
 def frame_free(p: DoorParams) -> float:

@@ -122,20 +122,19 @@ def _neck(h: LeverSet, reach: float) -> tuple[Solid, Solid]:
 
 
 def _bent(h: LeverSet, path: Floats, sides: int) -> Shape:
-    """A round lever along a path from the neck to its end, contact boxes along its legs."""
+    """A round lever along a path from the neck to its end, contact pieces along its legs."""
     neck, core = _neck(h, h.standoff)
     r = h.radius
-    bar = wire(path, r, sides=sides)
-    boxes = []
-    for (x0, y0, z0), (x1, y1, z1) in pairwise(path.tolist()):
-        low = (min(x0, x1) - 0.8 * r, min(y0, y1) - 0.8 * r, min(z0, z1) - 0.8 * r)
-        high = (max(x0, x1) + 0.8 * r, max(y0, y1) + 0.8 * r, max(z0, z1) + 0.8 * r)
-        boxes.append(slab(low, high))
-    return union([bar, neck]), (core, *boxes)
+    ends = np.linspace(0, len(path) - 1, min(2, len(path) - 1) + 1).round().astype(int).tolist()
+    legs = tuple(wire(path[i : j + 1], 0.95 * r, sides=6).hull() for i, j in pairwise(ends))
+    return union([wire(path, r, sides=sides), neck]), (core, *legs)
 
 
 def _round(h: LeverSet) -> Shape:
-    return _bent(h, np.array([(NECK, -h.standoff, 0.0), (-h.length, -h.standoff, 0.0)]), 14)
+    neck, core = _neck(h, h.standoff)
+    r, path = 0.9 * h.radius, np.array([(NECK, -h.standoff, 0.0), (-h.length, -h.standoff, 0.0)])
+    bar = slab((-h.length, -h.standoff - r, -r), (NECK, -h.standoff + r, r))
+    return union([wire(path, h.radius, sides=14), neck]), (core, bar)
 
 
 def _return(h: LeverSet) -> Shape:
@@ -177,8 +176,9 @@ def _knob(h: LeverSet) -> Shape:
         [[(0.0, 0.002), (NECK, 0.002), (NECK, 0.3 * out)], dome, [(0.0, dome[-1, 1])]]
     )
     solid = revolve(outline, axis="y", segments=28).mirrored("y")
-    half, core = 0.72 * head, _neck(h, 0.42 * out)[1]
-    return solid, (core, slab((-half, -0.96 * out, -half), (half, -0.42 * out, half)))
+    core = _neck(h, 0.42 * out)[1]
+    crown = revolve([(0.0, dome[0, 1]), *dome.tolist(), (0.0, dome[-1, 1])], segments=12)
+    return solid, (core, upright(crown, "y").mirrored("y").hull())
 
 
 LEVERS: Mapping[LeverStyle, Callable[[LeverSet], Shape]] = {
@@ -219,7 +219,7 @@ def _sheet(outline: Floats) -> Solid:
 def _rose(plate: Plate) -> Solid:
     side = 2.0 * ROSE
     square = plate == "square_rose"
-    return _sheet(rounded_rectangle(side, side, 0.003) if square else circle(ROSE, segments=32))
+    return _sheet(rounded_rectangle(side, side, 0.003) if square else circle(ROSE, segments=28))
 
 
 def _rose_box(plate: Plate) -> Solid:

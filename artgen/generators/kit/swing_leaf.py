@@ -39,6 +39,12 @@ class Hung:
     strike: tuple[Body, ...] = ()
     strike_hole: Solid | None = None
 
+    def struck(self, jamb: tuple[Body, ...]) -> tuple[Body, ...]:
+        """The jamb's bodies with this leaf's strike let in."""
+        if self.strike_hole is None:
+            return jamb
+        return pierced(jamb, self.strike_hole, clear=self.strike_hole) + self.strike
+
     def mirrored(self) -> "Hung":
         """Left and right exchanged."""
         return replace(
