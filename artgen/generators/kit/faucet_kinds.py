@@ -217,7 +217,7 @@ def _neck(
         low = top - 0.32 * over
         corners = ((0.0, foot), (0.0, top), (-0.75 * over, top - 0.02), (-over, low - 0.02))
         return SpoutPath(corners=corners, bends=(0.30 * over, 0.22 * over), radius=radius)
-    outlet = max(top - over / 2.0 - drop, foot + 0.05)
+    outlet = max(top - over / 2.0 - drop, 0.085)
     lean = math.radians(p.lean)
     return gooseneck(foot=foot, top=top, reach=over, outlet=outlet, radius=radius, lean=lean)
 

@@ -115,16 +115,16 @@ class MixerHandle:
         return plane.point(0.0, y, z)
 
     def _ball(self) -> Solid:
-        """What shows under the cap's raised rear rim: a ball cut flat at the seat."""
-        angles = np.linspace(-math.asin(self.center / self.ball) + 0.03, math.pi / 2.0, 9)
+        """What shows under the cap's raised rear rim: a ball cut flat at the seat and inside the
+        cap, so that it is a disc rather than a sphere to solvers of its inertia."""
+        angles = np.linspace(-math.asin(self.center / self.ball) + 0.03, math.pi / 6.0, 9)
         outline = [(self.ball * math.cos(a), self.center + self.ball * math.sin(a)) for a in angles]
-        outline[-1] = (0.0, self.center + self.ball)
-        low = outline[0][1]
-        return revolve([(0.0, low), *outline], segments=28)
+        ends = [(0.0, outline[0][1]), *outline, (0.0, outline[-1][1])]
+        return revolve(ends, segments=28)
 
     def _ball_contact(self) -> Solid:
         half = self.ball / math.sqrt(3.0) - 0.0005
-        return slab((-half, -half, 0.0006), (half, half, self.center + half))
+        return slab((-half, -half, 0.0006), (half, half, self.center + 0.5 * self.ball))
 
     def _hollow(self) -> Solid:
         angles = np.linspace(-math.pi / 2.0, math.pi / 2.0, 15)

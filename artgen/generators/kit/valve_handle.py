@@ -79,8 +79,8 @@ class ValveHandle:
             axis=(x, y, z),
             origin=plane.origin,
             limit=Limit(lower=0.0, upper=self.turn),
-            friction=0.18,
-            damping=0.01,
+            friction=0.12,
+            damping=0.002,
             effort=4.0,
         )
 
