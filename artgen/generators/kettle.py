@@ -1,5 +1,6 @@
 """Kettles: cordless electric ones on their power base, and whistling ones for the stove."""
 
+import math
 from collections.abc import Mapping
 
 from artgen.articulation.types import Draft, DraftPart, Grip, Joint, Limit, Precondition
@@ -19,6 +20,7 @@ from artgen.generators.kit.kettle_switch import (
 )
 from artgen.generators.kit.power_base import power_base
 from artgen.generators.kit.quarter_turn import turned_joint, turned_part
+from artgen.generators.kit.stove_kettle import StoveKettle, stove_works
 
 PARAMS = KettleParams
 INVARIANTS = kettle_params.INVARIANTS
@@ -26,8 +28,9 @@ INVARIANTS = kettle_params.INVARIANTS
 
 def build(p: KettleParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     """Drawn with the spout towards -y, then turned: it pours to the left, the gauge faces front."""
-    parts, joints, rules = _electric(p)
-    specs = (*surfaces.values(), gauge_print(p, gauge_plane(p).size))
+    parts, joints, rules = _electric(p) if p.electric else _stove(p)
+    prints = (gauge_print(p, gauge_plane(p).size),) if p.electric else ()
+    specs = (*surfaces.values(), *prints)
     worn = {body.surface for part in parts for body in part.bodies}
     return Draft(
         category="kettle",
@@ -38,6 +41,8 @@ def build(p: KettleParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     )
 
 
+STOVE_SIZE = (1.42, 0.62)
+"""Radius and height of a kettle for the stove in those of an electric jug."""
 Works = tuple[list[DraftPart], list[Joint], tuple[Precondition, ...]]
 
 
@@ -73,6 +78,29 @@ def _electric(p: KettleParams) -> Works:
     bodies = (*jug_bodies(p, wells), gauge_plate(p))
     parts.append(DraftPart(name="jug", label="jug", bodies=bodies, grips=(_grip(p),)))
     return [*parts, *movers], joints, tuple(rules)
+
+
+def _stove(p: KettleParams) -> Works:
+    """At rest lid and flap are shut and the handle stands upright."""
+    kettle = StoveKettle(
+        radius=STOVE_SIZE[0] * p.radius,
+        height=STOVE_SIZE[1] * p.height * (0.9 + 0.25 * p.belly),
+        mouth=0.046,
+        belly=p.belly,
+        spout=p.spout_radius,
+        lean=math.radians(p.spout_deg),
+        handle=p.bail,
+        fold=math.radians(p.fold_deg),
+        flap=math.radians(p.flap_deg),
+        grip=(p.handle_width, p.handle_thickness),
+        skin="sheet" if p.form == "dome" else "painted",
+        crown=p.crown,
+    )
+    parts, joints = stove_works(kettle)
+    if p.bail != "swing":
+        return parts, joints, ()
+    held = Precondition(joint="lid_lift", requires="handle_swing", at_least=0.8 * kettle.fold)
+    return parts, joints, (held,)
 
 
 def _lift(p: KettleParams) -> Joint:

@@ -57,8 +57,6 @@ class KettleParams:
     bail: str
     fold_deg: float
     flap_deg: float
-    trigger: bool
-    ribs: int
     brand: int
 
     @property

@@ -2,7 +2,7 @@
 
 import math
 
-from artgen.articulation.types import Body, DraftPart, Grip, Joint, Latch, Limit
+from artgen.articulation.types import Body, DraftPart, Grip, Joint, Limit
 from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.density import ABS
 from artgen.generators.kit.kettle_jug import SLOT
@@ -12,6 +12,9 @@ from artgen.geometry.solid import Solid, box, slab
 
 PADDLE = (0.0195, 0.0042, 0.016)
 """m; width and thickness of the lever, and how far it stands out."""
+
+BRIDGE = 3200.0
+"""kg/m3 of the lever, the bimetal's bridge that it moves included."""
 
 
 def lever_slot(p: KettleParams) -> Solid:
@@ -44,16 +47,16 @@ def lever_part(p: KettleParams) -> DraftPart:
         name="switch_tip", kind="lever", position=(0.0, p.radius + 0.8 * out, z + thick),
         outward=(0.0, 1.0, 0.0), pull=(0.0, 0.0, -1.0),
     )  # fmt: skip
-    body = Body(solid=solid, surface="accent", density=ABS, edge=0.0006, collision=(touch,))
+    body = Body(solid=solid, surface="accent", density=BRIDGE, edge=0.0006, collision=(touch,))
     return DraftPart(name="switch", label="lever", bodies=(body,), grips=(grip,))
 
 
 def lever_joint(p: KettleParams, parent: str) -> Joint:
-    """Pressed down by +q; the detent holds it off."""
+    """Pressed down by +q; friction stands for its detents."""
     return Joint(
         name="switch_press", type="revolute", parent=parent, child="switch", axis=(-1.0, 0.0, 0.0),
         origin=(0.0, *_axis(p)), limit=Limit(lower=0.0, upper=math.radians(p.switch_deg)),
-        friction=0.03, damping=0.002, effort=1.0, latch=Latch(force=0.08, reach=0.06),
+        friction=0.02, damping=0.0004, effort=1.0,
     )  # fmt: skip
 
 
