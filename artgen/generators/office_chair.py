@@ -59,7 +59,7 @@ def build(p: OfficeChairParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     )
 
 
-_HARD = Stock(surface="hard", density=950.0, edge=0.0012)
+_HARD = Stock(surface="hard", density=950.0, edge=0.0015)
 _SOFT = Stock(surface="hard", density=500.0, edge=0.0)
 _DARK = Stock(surface="hard", density=1900.0, edge=0.0015)
 _CORD = Stock(surface="cord", density=500.0, edge=0.0)

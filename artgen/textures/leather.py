@@ -6,14 +6,14 @@ from artgen.textures.images import TextureSet
 from artgen.textures.noise import smooth, smoothstep
 from artgen.textures.relief import normal_map, quantized, slopes
 
-SHAPE = (192, 192)
+SHAPE = (128, 128)
 STEPS = 12
 
 
 def leather(spec: SurfaceSpec) -> TextureSet:
     """Creases where two swells balance; the crests are worn smoother than the creases."""
     rng = Stream(1, "leather").generator()
-    creases = [smooth(rng, (cells, cells), SHAPE) for cells in (14, 20)]
+    creases = [smooth(rng, (cells, cells), SHAPE) for cells in (10, 14)]
     height = 1.0
     for field in creases:
         height = height * smoothstep(0.0, 0.45, abs(field))

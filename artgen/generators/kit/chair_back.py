@@ -115,23 +115,23 @@ class ChairBack:
     def _net(self, cover: Stock, frame: Stock) -> list[Body]:
         """A bent tube, and bands across it with gaps one sees through."""
         outline = plan(self.width - 2 * FRAME, self.height - 2 * FRAME, self.corner)
-        rim = wire(self.place(np.c_[outline, np.zeros(len(outline))]), FRAME, sides=8, closed=True)
+        rim = wire(self.place(np.c_[outline, np.zeros(len(outline))]), FRAME, sides=6, closed=True)
         bands = [self._band(outline, h) for h in self._band_heights()]
         frame_body = replace(frame, edge=0.0).piece(rim, contact=self._contact(0.004, 0.004))
         return [cover.piece(union(bands)), frame_body]
 
     def _band_heights(self) -> list[float]:
         half = self.height / 2.0 - FRAME - 0.006
-        count = round(2.0 * half / 0.0105)
+        count = round(2.0 * half / 0.0132)
         return [-half + 2.0 * half * (k + 0.5) / count for k in range(count)]
 
     def _band(self, outline: Floats, h: float) -> Solid:
         """One band from rim to rim."""
         reach = _half_width(outline, h)
         rings = []
-        for x in np.linspace(-reach, reach, 6):
-            section = [(x, h + a, b) for a, b in ((-0.0038, -0.0006), (0.0038, -0.0006),
-                                                  (0.0038, 0.0006), (-0.0038, 0.0006))]  # fmt: skip
+        for x in np.linspace(-reach, reach, 5):
+            section = [(x, h + a, b) for a, b in ((-0.0046, -0.0006), (0.0046, -0.0006),
+                                                  (0.0046, 0.0006), (-0.0046, 0.0006))]  # fmt: skip
             rings.append(self.place(np.array(section)))
         return loft(rings)
 

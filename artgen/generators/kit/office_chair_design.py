@@ -126,15 +126,13 @@ class OfficeChairParams:
     def chair_back(self) -> ChairBack:
         """The back, upright."""
         seat = self.seat
-        front = (
-            seat.rear + 0.014 + (self.bow + self.lumbar if self.back == "net" else 0.5 * self.bow)
-        )
+        depth = self.lumbar if self.back == "net" else self.padding
         return ChairBack(
             style=self.back,
             width=self.back_width,
             height=self.back_height * (1.18 if self.back == "panels" else 1.0),
             low=seat.top + self.back_gap,
-            front=front + (0.0 if self.back == "net" else 0.6 * self.padding),
+            front=seat.rear + 0.010 + self.bow + depth,
             lean=self.lean,
             bow=self.bow,
             lumbar=self.lumbar,

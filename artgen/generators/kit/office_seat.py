@@ -128,17 +128,20 @@ class OfficeSeat:
             roll=0.45 * self.thickness,
             crown=self.crown,
             reach=reach,
-            rings=(2, 4, 4),
+            rings=(2, 4, 3),
         )
         solid = pad(outline, steps, self._on_cushion)
         w, d = self.width / 2.0 - 0.012, self.depth / 2.0
         low = self.pan + PAN
         front, split = self.middle - d, self.middle - 0.62 * d
-        main = slab((-w, split, low), (w, self.middle + d - 0.008, low + self.thickness - 0.003))
+        rear, high = self.middle + d - 0.008, low + self.thickness - 0.003
+        easing = 0.7 * self.corner[1]
+        main = slab((-w + easing, split, low), (w - easing, rear, high))
+        wide = slab((-w, split, low), (w, rear - easing, high - 0.001))
         nose = slab((-w + 0.02, front + 0.01, low - 0.3 * self.fall),
                     (w - 0.02, split, low + self.thickness - 0.55 * self.fall))  # fmt: skip
         seam = piping(outline, (0.0003, 0.50 * self.thickness), self._on_cushion, 0.0024)
-        bodies = [cover.piece(solid, contact=(main, nose)), cord.piece(seam)]
+        bodies = [cover.piece(solid, contact=(main, wide, nose)), cord.piece(seam)]
         if self.panel:
             step = steps[-3]
             bodies.append(cord.piece(piping(outline, step, self._on_cushion, 0.0020)))
