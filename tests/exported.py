@@ -4,6 +4,7 @@ import itertools
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -72,14 +73,22 @@ def mujoco_poses(obj: ArticulatedObject, folder: Path, file: str, state: State) 
     return _from_frames(obj, frames)
 
 
-def pinocchio_poses(obj: ArticulatedObject, folder: Path, state: State) -> Poses:
-    """From the URDF."""
+def pinocchio_at(
+    obj: ArticulatedObject, folder: Path, state: State
+) -> tuple[pinocchio.Model, pinocchio.Data, Floats]:
+    """Model, data and q from the URDF."""
     model = pinocchio.buildModelFromUrdf(str(folder / layout.URDF))
     data, q = model.createData(), pinocchio.neutral(model)
     for name, value in resolved(obj.joints, state).items():
         joint = model.joints[model.getJointId(name)]
         values = (np.cos(value), np.sin(value)) if joint.nq == 2 else (value,)
         q[joint.idx_q : joint.idx_q + joint.nq] = values
+    return model, data, q
+
+
+def pinocchio_poses(obj: ArticulatedObject, folder: Path, state: State) -> Poses:
+    """From the URDF."""
+    model, data, q = pinocchio_at(obj, folder, state)
     pinocchio.framesForwardKinematics(model, data, q)
     kind = pinocchio.FrameType.BODY
     frames = {p.name: data.oMf[model.getFrameId(p.name, kind)].homogeneous for p in obj.parts}
@@ -104,6 +113,29 @@ def yourdf(folder: Path, *, load_meshes: bool) -> yourdfpy.URDF:
         force_mesh=True,
         mesh_dir=str(folder),
     )
+
+
+def grip_frames(obj: ArticulatedObject, folder: Path, state: State) -> dict[str, Poses]:
+    """Reader to the frames (4, 4) of grips, as other libraries see them."""
+    names = [grip.name for part in obj.parts for grip in part.grips]
+    model = mujoco_model(folder, layout.MJCF)
+    sites = mujoco_data(obj, model, state)
+    found = {"mjcf in mujoco": {n: _placed(sites.site(n)) for n in names}}
+    bodies = mujoco_data(obj, mujoco_model(folder, layout.URDF), state)
+    found["urdf in mujoco"] = {n: _placed(bodies.body(n)) for n in names}
+    robot = yourdf(folder, load_meshes=False)
+    q = resolved(obj.joints, state)
+    robot.update_cfg({name: q[name] for name in robot.actuated_joint_names})
+    found["urdf in yourdfpy"] = {n: robot.get_transform(n, robot.base_link) for n in names}
+    other, data, place = pinocchio_at(obj, folder, state)
+    pinocchio.framesForwardKinematics(other, data, place)
+    found["urdf in pinocchio"] = {n: data.oMf[other.getFrameId(n)].homogeneous for n in names}
+    return found
+
+
+def _placed(element: Any) -> Floats:
+    """(4, 4) of a site or body of an MjData."""
+    return rigid(element.xmat.reshape(3, 3), element.xpos)
 
 
 # ------------------------------------------------------------------- masses: kg, m, kg m2 a part

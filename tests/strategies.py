@@ -4,6 +4,7 @@ Strategies draw every number by hypothesis, so that failures shrink. The ready-m
 small closed boxes with exact masses, for tests that need real geometry and no builder.
 """
 
+import dataclasses
 import math
 from collections.abc import Sequence
 
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 
 from artgen.articulation.types import (
     ArticulatedObject,
+    Grip,
     Joint,
     JointType,
     Latch,
@@ -250,6 +252,11 @@ def box_part(name: str, corners: Sequence[Corners], *, slots: Sequence[int] | No
     )
 
 
+def with_grips(part: Part, *grips: Grip) -> Part:
+    """A part that can be taken hold of."""
+    return dataclasses.replace(part, grips=grips)
+
+
 def _object(
     asset_id: str,
     parts: Sequence[Part],
@@ -290,6 +297,13 @@ def chest() -> ArticulatedObject:
         [((-0.2, -0.15, 0.182), (0.2, 0.15, 0.2)), ((-0.02, -0.16, 0.185), (0.02, -0.15, 0.195))],
         slots=[0, 1],
     )
+    lid = with_grips(
+        lid,
+        Grip(
+            name="lid_edge", kind="edge", position=(0.0, -0.16, 0.19), outward=(0.0, -1.0, 0.0),
+            pull=(0.0, 0.0, 1.0),
+        ),
+    )  # fmt: skip
     return _object(
         "chest_000001", [base, lid], [hinge("hinge", "base", "lid", axis=(-1.0, 0.0, 0.0))]
     )
@@ -309,6 +323,18 @@ def drawer_unit() -> ArticulatedObject:
     knob = Part(
         name="knob", label="knob", mesh=knob.mesh, mass=knob.mass,
         collision=(wedge(((0.2, -0.25, 0.4), (0.23, -0.221, 0.43))),),
+    )  # fmt: skip
+    front = (0.0, -1.0, 0.0)
+    base = with_grips(base, Grip(name="carry", kind="edge", position=(0.3, 0.19, 0.6),
+                                 outward=unit((1.0, 0.3, 0.2)), pull=(0.0, 0.0, 1.0)))  # fmt: skip
+    drawer = with_grips(drawer, Grip(name="drawer_edge", kind="edge", position=(0.1, -0.2, 0.2),
+                                     outward=front, pull=front))  # fmt: skip
+    door = with_grips(
+        door,
+        Grip(name="door_edge", kind="edge", position=(0.29, -0.21, 0.4), outward=(1.0, 0.0, 0.0),
+             pull=front),
+        Grip(name="door_top", kind="rim", position=(0.2, -0.21, 0.59), outward=(0.0, 0.0, 1.0),
+             pull=unit((0.1, -1.0, 0.05))),
     )  # fmt: skip
     slide = hinge(
         "slide", "base", "drawer", type="prismatic", axis=(0.0, -1.0, 0.0), origin=(0.0, 0.0, 0.0),

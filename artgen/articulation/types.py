@@ -15,6 +15,7 @@ from artgen.geometry.solid import Solid
 JointType = Literal["revolute", "continuous", "prismatic"]
 Vector = tuple[float, float, float]
 Axis = Literal["x", "y", "z"]
+GripKind = Literal["handle", "knob", "button", "lever", "edge", "rim"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +72,7 @@ class Grip:
     """
 
     name: str
-    kind: Literal["handle", "knob", "button", "lever", "edge", "rim"]
+    kind: GripKind
     position: Vector
     outward: Vector
     pull: Vector

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from artgen.articulation.types import (
+    Grip,
     Joint,
     Latch,
     Limit,
@@ -68,6 +69,7 @@ class BundlePart:
     densities: tuple[float, ...] | None
     surfaces: tuple[str, ...]
     collision: tuple[BundleBox | BundleHull, ...]
+    grips: tuple[Grip, ...]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -183,6 +185,7 @@ def _part(entry: dict[str, Any]) -> BundlePart:
         densities=None if densities is None else tuple(densities),
         surfaces=tuple(entry["surfaces"]),
         collision=tuple(_piece(piece) for piece in entry["collision"]),
+        grips=tuple(_grip(grip) for grip in entry["grips"]),
     )
 
 
@@ -190,6 +193,11 @@ def _piece(entry: dict[str, Any]) -> BundleBox | BundleHull:
     if entry["type"] == "hull":
         return BundleHull(file=entry["file"])
     return BundleBox(center=vector(np.array(entry["center"])), size=vector(np.array(entry["size"])))
+
+
+def _grip(entry: dict[str, Any]) -> Grip:
+    vectors = {key: vector(np.array(entry[key])) for key in ("position", "outward", "pull")}
+    return Grip(name=entry["name"], kind=entry["kind"], **vectors)
 
 
 def _joint(entry: dict[str, Any]) -> Joint:

@@ -14,14 +14,21 @@ from typing import Any
 
 import numpy as np
 
-from artgen.articulation.types import ArticulatedObject, Joint, Latch, Mimic, Part, Spring
+from artgen.articulation.types import ArticulatedObject, Grip, Joint, Latch, Mimic, Part, Spring
 from artgen.core.conventions import Y_UP_FROM_Z_UP
 from artgen.core.errors import ExportError
 from artgen.core.jsonio import plain
 from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
 from artgen.export import layout
-from artgen.export.kinematics import FileJoint, FileKinematics, FileMass, vector
+from artgen.export.kinematics import (
+    FileGrip,
+    FileJoint,
+    FileKinematics,
+    FileMass,
+    as_file_grip,
+    vector,
+)
 from artgen.export.layout import GLB, pivots
 from artgen.export.surface_images import SurfaceImages
 from artgen.finish_jobs import (
@@ -143,6 +150,8 @@ def part_extras(obj: ArticulatedObject, part: Part, pivot: Floats) -> dict[str, 
     joint = obj.joint_of(part.name)
     if joint is not None:
         extras["joint"] = joint_extras(joint)
+    if part.grips:
+        extras["grips"] = [grip_extras(grip, pivot) for grip in part.grips]
     turned: dict[str, Any] = plain(extras)
     return turned
 
@@ -161,6 +170,17 @@ def joint_extras(joint: Joint) -> dict[str, Any]:
         "spring": joint.spring,
         "latch": joint.latch,
         "mimic": joint.mimic,
+    }
+
+
+def grip_extras(grip: Grip, pivot: Floats) -> dict[str, Any]:
+    """A grip in the node's frame."""
+    return {
+        "name": grip.name,
+        "kind": grip.kind,
+        "position": TURN @ (grip.position - pivot) + 0.0,
+        "outward": TURN @ grip.outward + 0.0,
+        "pull": TURN @ grip.pull + 0.0,
     }
 
 
@@ -184,6 +204,7 @@ def load_kinematics(folder: Path) -> FileKinematics:
     nodes = document["nodes"]
     masses: dict[str, FileMass | None] = {}
     joints: list[FileJoint] = []
+    grips: list[FileGrip] = []
     roots: list[int] = document["scenes"][document.get("scene", 0)]["nodes"]
     waiting = [(index, "", np.zeros(3)) for index in roots]
     while waiting:
@@ -193,9 +214,21 @@ def load_kinematics(folder: Path) -> FileKinematics:
         masses[node["name"]] = _file_mass(node["extras"], pivot)
         if (stated := node["extras"].get("joint")) is not None:
             joints.append(_file_joint(stated, parent, node["name"], pivot))
+        grips += [_file_grip(g, node["name"], pivot) for g in node["extras"].get("grips", ())]
         waiting += [(child, node["name"], pivot) for child in node.get("children", ())]
     base = nodes[roots[0]]["name"]
-    return FileKinematics(base=base, masses=masses, joints=tuple(joints))
+    return FileKinematics(base=base, masses=masses, joints=tuple(joints), grips=tuple(grips))
+
+
+def _file_grip(stated: Mapping[str, Any], part: str, pivot: Floats) -> FileGrip:
+    grip = Grip(
+        name=stated["name"],
+        kind=stated["kind"],
+        position=vector(pivot + TURN.T @ np.array(stated["position"])),
+        outward=vector(TURN.T @ np.array(stated["outward"])),
+        pull=vector(TURN.T @ np.array(stated["pull"])),
+    )
+    return as_file_grip(part, grip)
 
 
 def _file_mass(extras: Mapping[str, Any], pivot: Floats) -> FileMass:

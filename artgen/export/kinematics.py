@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from artgen.articulation.grips import grip_frame
 from artgen.articulation.types import (
     ArticulatedObject,
+    Grip,
     Joint,
     JointType,
     Latch,
@@ -50,6 +52,19 @@ class FileJoint:
     mimic: Mimic | None
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FileGrip:
+    """A grip as read: its frame (4, 4) in the object frame at rest, as `grip_frame` makes it, and
+    its own words and directions where the format has them."""
+
+    name: str
+    part: str
+    frame: Floats
+    kind: str | None = None
+    outward: Vector | None = None
+    pull: Vector | None = None
+
+
 @dataclass(frozen=True, kw_only=True)
 class FileKinematics:
     """Everything one file states about how the object moves.
@@ -58,11 +73,13 @@ class FileKinematics:
         base: the part that no joint moves.
         masses: part name to mass properties; None for parts the format gives no mass.
         joints: in the file's order.
+        grips: in the file's order.
     """
 
     base: str
     masses: Mapping[str, FileMass | None]
     joints: tuple[FileJoint, ...]
+    grips: tuple[FileGrip, ...]
 
 
 def stated(obj: ArticulatedObject) -> FileKinematics:
@@ -72,7 +89,20 @@ def stated(obj: ArticulatedObject) -> FileKinematics:
         for part in obj.parts
     }
     joints = tuple(as_file_joint(joint) for joint in obj.joints)
-    return FileKinematics(base=obj.base.name, masses=masses, joints=joints)
+    grips = tuple(as_file_grip(part.name, grip) for part in obj.parts for grip in part.grips)
+    return FileKinematics(base=obj.base.name, masses=masses, joints=joints, grips=grips)
+
+
+def as_file_grip(part: str, grip: Grip) -> FileGrip:
+    """A grip in the form that readers return."""
+    return FileGrip(
+        name=grip.name,
+        part=part,
+        frame=grip_frame(grip),
+        kind=grip.kind,
+        outward=grip.outward,
+        pull=grip.pull,
+    )
 
 
 def as_file_joint(joint: Joint) -> FileJoint:

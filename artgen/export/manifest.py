@@ -80,6 +80,7 @@ def part_entry(obj: ArticulatedObject, part: Part) -> dict[str, Any]:
             else {"type": "hull", "file": piece.file}
             for piece in collision_pieces(obj.asset_id, part)
         ],
+        "grips": part.grips,
     }
 
 

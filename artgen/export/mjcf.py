@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from artgen.articulation.grips import grip_frame
 from artgen.articulation.types import (
     ArticulatedObject,
+    Grip,
     Joint,
     JointType,
     Latch,
@@ -16,7 +18,8 @@ from artgen.articulation.types import (
     Spring,
 )
 from artgen.core.mesh import Floats
-from artgen.export.kinematics import FileJoint, FileKinematics, FileMass, vector
+from artgen.core.transform import rigid
+from artgen.export.kinematics import FileGrip, FileJoint, FileKinematics, FileMass, vector
 from artgen.export.layout import (
     MJCF,
     BoxPiece,
@@ -126,7 +129,16 @@ def _own_elements(obj: ArticulatedObject, part: Part, pivot: Floats) -> list[ET.
     elements.append(ET.Element("geom", visual))
     pieces = collision_pieces(obj.asset_id, part)
     elements += [_collision_element(part.name, piece, pivot) for piece in pieces]
+    elements += [_site_element(grip, pivot) for grip in part.grips]
     return elements
+
+
+def _site_element(grip: Grip, pivot: Floats) -> ET.Element:
+    """The frame of a grip, in a group that viewers hide."""
+    frame = grip_frame(grip)
+    axes = exact(frame[:3, :2].T.ravel())
+    place = exact(frame[:3, 3] - pivot)
+    return ET.Element("site", name=grip.name, pos=place, xyaxes=axes, group=COLLISION_GROUP)
 
 
 def _collision_element(part: str, piece: BoxPiece | HullPiece, pivot: Floats) -> ET.Element:
@@ -195,16 +207,27 @@ def load_kinematics(folder: Path) -> FileKinematics:
     latches = dict(_file_latch(e) for e in root.iterfind("tendon/fixed"))
     masses: dict[str, FileMass | None] = {}
     joints: list[FileJoint] = []
+    grips: list[FileGrip] = []
     base = next(root.iterfind("worldbody/body"))
     waiting: list[tuple[ET.Element, str, Floats]] = [(base, "", np.zeros(3))]
     while waiting:
         body, parent, frame = waiting.pop(0)
         name, pivot = body.attrib["name"], frame + parsed(body.attrib["pos"])
         masses[name] = _file_mass(body, pivot)
+        grips += [_file_grip(e, name, pivot) for e in body.iterfind("site")]
         own = [_file_joint(e, parent, name, pivot, mimics) for e in body.iterfind("joint")]
         joints += [replace(joint, latch=latches.get(joint.name)) for joint in own]
         waiting += [(child, name, pivot) for child in body.iterfind("body")]
-    return FileKinematics(base=base.attrib["name"], masses=masses, joints=tuple(joints))
+    return FileKinematics(
+        base=base.attrib["name"], masses=masses, joints=tuple(joints), grips=tuple(grips)
+    )
+
+
+def _file_grip(site: ET.Element, part: str, pivot: Floats) -> FileGrip:
+    x, y = np.reshape(parsed(site.attrib["xyaxes"]), (2, 3))
+    turn = np.stack([x, y, np.cross(x, y)], axis=1)
+    frame = rigid(turn, pivot + parsed(site.attrib["pos"]))
+    return FileGrip(name=site.attrib["name"], part=part, frame=frame)
 
 
 def _file_mimic(element: ET.Element) -> Mimic:

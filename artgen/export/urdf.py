@@ -1,18 +1,33 @@
-"""URDF: link frames at the joints, all parallel to the object frame, so every `rpy` is zero."""
+"""URDF: link frames at the joints, all parallel to the object frame, so every `rpy` is zero but
+those of grips, which are links of their own without mass."""
 
+import math
 import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from artgen.articulation.types import ArticulatedObject, Joint, JointType, Mimic, Part
+from artgen.articulation.grips import grip_frame
+from artgen.articulation.types import (
+    ArticulatedObject,
+    Grip,
+    Joint,
+    JointType,
+    Mimic,
+    Part,
+    Vector,
+)
 from artgen.core.errors import ExportError
 from artgen.core.mesh import Floats
-from artgen.export.kinematics import FileJoint, FileKinematics, FileMass, vector
+from artgen.core.transform import rigid
+from artgen.export.kinematics import FileGrip, FileJoint, FileKinematics, FileMass, vector
 from artgen.export.layout import URDF, BoxPiece, HullPiece, collision_pieces, mesh_path, pivots
 from artgen.export.numbers import exact, parsed
 
 NO_ROTATION = "0 0 0"
+FRAME = "_frame"
+"""What the fixed joint of a grip's link adds to the grip's name."""
 TENSOR = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
 
 
@@ -25,6 +40,9 @@ def urdf_text(obj: ArticulatedObject) -> str:
     ET.SubElement(hints, "compiler", fusestatic="false", discardvisual="false")
     robot.extend(link_element(obj.asset_id, part, frames[part.name]) for part in obj.parts)
     robot.extend(joint_element(joint, frames[joint.parent]) for joint in obj.joints)
+    for part in obj.parts:
+        for grip in part.grips:
+            robot.extend(grip_elements(grip, part.name, frames[part.name]))
     ET.indent(robot)
     return ET.tostring(robot, encoding="unicode", xml_declaration=True) + "\n"
 
@@ -79,6 +97,38 @@ def joint_element(joint: Joint, parent_pivot: Floats) -> ET.Element:
     return element
 
 
+def grip_elements(grip: Grip, part: str, pivot: Floats) -> tuple[ET.Element, ET.Element]:
+    """A link without mass or shape at the grip's frame, and the fixed joint that holds it."""
+    frame = grip_frame(grip)
+    joint = ET.Element("joint", name=f"{grip.name}{FRAME}", type="fixed")
+    angles = exact(rpy_from_matrix(frame[:3, :3]))
+    ET.SubElement(joint, "origin", xyz=exact(frame[:3, 3] - pivot), rpy=angles)
+    ET.SubElement(joint, "parent", link=part)
+    ET.SubElement(joint, "child", link=grip.name)
+    return ET.Element("link", name=grip.name), joint
+
+
+def rpy_from_matrix(turn: Floats) -> Vector:
+    """Angles about fixed x, then y, then z; the last is 0 where y is a quarter turn."""
+    level = math.hypot(turn[0, 0], turn[1, 0])
+    pitch = math.atan2(-turn[2, 0], level)
+    if level < 1e-9:
+        return math.atan2(-turn[1, 2], turn[1, 1]), pitch, 0.0
+    return math.atan2(turn[2, 1], turn[2, 2]), pitch, math.atan2(turn[1, 0], turn[0, 0])
+
+
+def matrix_from_rpy(rpy: Sequence[float]) -> Floats:
+    """(3, 3) of angles about fixed x, then y, then z."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
 def _origin(parent: ET.Element, xyz: Floats) -> None:
     ET.SubElement(parent, "origin", xyz=exact(xyz), rpy=NO_ROTATION)
 
@@ -95,15 +145,28 @@ def load_kinematics(folder: Path) -> FileKinematics:
     children = {_need(element, "child").get("link") for element in robot.iter("joint")}
     base = next(name for name in _names(robot) if name not in children)
     frames[base] = np.zeros(3)
+    grips = []
     for element in robot.iter("joint"):
+        if element.get("type") == "fixed":
+            grips.append(_file_grip(element, frames))
+            continue
         joint = _file_joint(element, frames)
         frames[joint.child] = np.array(joint.origin)
         joints.append(joint)
     masses = {
         str(link.get("name")): _file_mass(link, frames[str(link.get("name"))])
         for link in robot.iter("link")
+        if link.get("name") in frames
     }
-    return FileKinematics(base=base, masses=masses, joints=tuple(joints))
+    return FileKinematics(base=base, masses=masses, joints=tuple(joints), grips=tuple(grips))
+
+
+def _file_grip(element: ET.Element, frames: Mapping[str, Floats]) -> FileGrip:
+    """A fixed joint holds nothing but a grip's frame."""
+    part, origin = _need(element, "parent").attrib["link"], _need(element, "origin").attrib
+    turn = matrix_from_rpy(parsed(origin["rpy"]))
+    frame = rigid(turn, frames[part] + parsed(origin["xyz"]))
+    return FileGrip(name=_need(element, "child").attrib["link"], part=part, frame=frame)
 
 
 def _names(robot: ET.Element) -> list[str]:

@@ -6,14 +6,15 @@ from pathlib import Path
 import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, UsdSemantics, UsdShade, Vt
 
-from artgen.articulation.types import ArticulatedObject, Part
+from artgen.articulation.grips import grip_frame
+from artgen.articulation.types import ArticulatedObject, Grip, Part
 from artgen.core.conventions import NORMAL_DECIMALS
 from artgen.core.mesh import Floats, TriMesh
 from artgen.export.layout import BoxPiece, HullPiece, collision_pieces, pivots
 from artgen.export.obj import distinct
 from artgen.export.principal import principal_axes, quaternion_from_matrix
 from artgen.export.surface_images import SurfaceImages
-from artgen.export.usd_joints import add_base_joint, add_joint
+from artgen.export.usd_joints import GRIPS, add_base_joint, add_joint
 from artgen.export.usd_materials import add_contact_material, add_material
 from artgen.geometry.normals import corner_normals
 
@@ -82,6 +83,22 @@ def _add_part(
     bound.Bind(contact, materialPurpose="physics")
     for piece in collision_pieces(obj.asset_id, part):
         _add_collision(stage, scope.GetPath(), piece, pivot)
+    for grip in part.grips:
+        _add_grip(stage, prim.GetPath().AppendChild(GRIPS), grip, pivot)
+
+
+def _add_grip(stage: Usd.Stage, scope: Sdf.Path, grip: Grip, pivot: Floats) -> None:
+    """An empty frame; what it is and both directions, in the part's frame, are attributes."""
+    UsdGeom.Scope.Define(stage, scope)
+    held = UsdGeom.Xform.Define(stage, scope.AppendChild(grip.name))
+    frame = grip_frame(grip)
+    w, x, y, z = quaternion_from_matrix(frame[:3, :3]).tolist()
+    held.AddTranslateOp().Set(Gf.Vec3d(*(frame[:3, 3] - pivot).tolist()))
+    held.AddOrientOp(UsdGeom.XformOp.PrecisionDouble).Set(Gf.Quatd(w, x, y, z))
+    prim, types = held.GetPrim(), Sdf.ValueTypeNames
+    prim.CreateAttribute("artgen:grip:kind", types.Token).Set(grip.kind)
+    prim.CreateAttribute("artgen:grip:outward", types.Vector3d).Set(Gf.Vec3d(*grip.outward))
+    prim.CreateAttribute("artgen:grip:pull", types.Vector3d).Set(Gf.Vec3d(*grip.pull))
 
 
 def _state_mass(prim: Usd.Prim, part: Part, pivot: Floats) -> None:

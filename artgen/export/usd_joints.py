@@ -16,12 +16,14 @@ from pxr import Gf, Sdf, Usd, UsdPhysics
 from artgen.articulation.types import Joint, JointType, Latch, Mimic, Precondition, Spring
 from artgen.core.errors import ExportError
 from artgen.core.mesh import Floats
-from artgen.export.kinematics import FileJoint, FileKinematics, FileMass, vector
+from artgen.core.transform import rigid
+from artgen.export.kinematics import FileGrip, FileJoint, FileKinematics, FileMass, vector
 from artgen.export.layout import USD
 from artgen.export.principal import matrix_from_quaternion, rotation_between
 
 AXES = {"X": (1.0, 0.0, 0.0), "Y": (0.0, 1.0, 0.0), "Z": (0.0, 0.0, 1.0)}
 FIXED = "base_to_world"
+GRIPS = "grips"
 DEGREE = math.pi / 180.0
 FLOAT, DOUBLE = Sdf.ValueTypeNames.Float, Sdf.ValueTypeNames.Double
 
@@ -138,7 +140,26 @@ def load_kinematics(folder: Path) -> FileKinematics:
             base = UsdPhysics.Joint(prim).GetBody1Rel().GetTargets()[0].name
         else:
             joints.append(_file_joint(prim, frames))
-    return FileKinematics(base=base, masses=masses, joints=tuple(joints))
+    grips = [
+        _file_grip(grip, prim.GetName(), frames[prim.GetName()])
+        for prim in bodies
+        if (scope := prim.GetChild(GRIPS))
+        for grip in scope.GetChildren()
+    ]
+    return FileKinematics(base=base, masses=masses, joints=tuple(joints), grips=tuple(grips))
+
+
+def _file_grip(prim: Usd.Prim, part: str, pivot: Floats) -> FileGrip:
+    turn = prim.GetAttribute("xformOp:orient").Get()
+    rotation = matrix_from_quaternion(np.array([turn.GetReal(), *turn.GetImaginary()]))
+    return FileGrip(
+        name=prim.GetName(),
+        part=part,
+        frame=rigid(rotation, pivot + _translation(prim)),
+        kind=prim.GetAttribute("artgen:grip:kind").Get(),
+        outward=vector(np.array(prim.GetAttribute("artgen:grip:outward").Get())),
+        pull=vector(np.array(prim.GetAttribute("artgen:grip:pull").Get())),
+    )
 
 
 def _translation(prim: Usd.Prim) -> Floats:

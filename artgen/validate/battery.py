@@ -7,6 +7,7 @@ from artgen.validate import (
     dynamics,
     files,
     free,
+    grips,
     inertia,
     interior,
     mechanism,
@@ -69,6 +70,11 @@ LEVELS: tuple[Level[Subject], ...] = (
         name="L0 model",
         needs=("L0 structure",),
         checks=(Check(structure.typed, ("structure.manifest", "structure.model"), (), "quick"),),
+    ),
+    Level(
+        name="L0 grips",
+        needs=("L0 model",),
+        checks=(Check(ours(grips.stated), ("structure.grip",), OURS, "quick"),),
     ),
     Level(
         name="L1 mesh files",
@@ -151,6 +157,7 @@ LEVELS: tuple[Level[Subject], ...] = (
                 OURS,
             ),
             Check(ours(semantics.roles), ("semantics.role",), OURS),
+            Check(ours(grips.held), ("semantics.grip",), OURS),
             Check(mechanism.hinges, ("semantics.hinge",), SEEN),
             Check(mechanism.travels, ("semantics.travel",), SEEN),
             Check(semantics.together, ("semantics.apart",), SEEN),

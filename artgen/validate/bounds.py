@@ -62,6 +62,8 @@ class Bounds:
     hinge_share: Bound
     hinge_slack: Bound
     travel: Bound
+    grip_near: Bound
+    grip_pull: Bound
     closed_play: Bound
     apart: Bound
     axis_norm_foreign: Bound

@@ -30,6 +30,7 @@ from artgen.validate.stated import (
     manifest_joints,
     urdf_bodies,
     urdf_joints,
+    without_frames,
 )
 from artgen.validate.subject import Link, Subject, SubjectPart
 from artgen.validate.xmlfile import read_xml
@@ -90,6 +91,12 @@ class BundleSubject(Subject):
         return read_xml(self.folder / URDF)
 
     @cached_property
+    def robot(self) -> ET.Element:
+        """The URDF without the frames of grips: links that hold nothing, on fixed joints, which the
+        manifest names as grips. `validate.grips` judges those."""
+        return without_frames(self.urdf, grip_names(self.manifest))
+
+    @cached_property
     def mjcf(self) -> ET.Element:
         """The MJCF's root element."""
         return read_xml(self.folder / MJCF)
@@ -99,18 +106,18 @@ class BundleSubject(Subject):
         """Names of the manifest's parts and of the URDF's links."""
         return {
             MANIFEST: [str(part.get("name")) for part in self.manifest["parts"]],
-            URDF: [link.get("name", "") for link in self.urdf.iterfind("link")],
+            URDF: [link.get("name", "") for link in self.robot.iterfind("link")],
         }
 
     @cached_property
     def stated_joints(self) -> list[StatedJoint]:
         """Joints of the manifest, then of the URDF."""
-        return manifest_joints(MANIFEST, self.manifest) + urdf_joints(URDF, self.urdf)
+        return manifest_joints(MANIFEST, self.manifest) + urdf_joints(URDF, self.robot)
 
     @property
     def stated_bodies(self) -> list[StatedBody]:
         """Mass properties in the manifest, then in the URDF."""
-        return manifest_bodies(MANIFEST, self.manifest) + urdf_bodies(URDF, self.urdf)
+        return manifest_bodies(MANIFEST, self.manifest) + urdf_bodies(URDF, self.robot)
 
     @cached_property
     def bundle(self) -> Bundle:
@@ -199,6 +206,17 @@ class BundleSubject(Subject):
         if file not in self.models:
             self.models[file] = compiled_spec(self.spec(file))
         return self.models[file]
+
+
+def grip_names(manifest: Mapping[str, Any]) -> frozenset[str]:
+    """Of a manifest as it stands, whatever it holds."""
+    names: set[str] = set()
+    parts = manifest.get("parts")
+    for part in parts if isinstance(parts, list) else ():
+        grips = part.get("grips") if isinstance(part, dict) else None
+        for grip in grips if isinstance(grips, list) else ():
+            names.add(str(grip.get("name")) if isinstance(grip, dict) else "")
+    return frozenset(names)
 
 
 def manifest_problem(manifest: object) -> str | None:

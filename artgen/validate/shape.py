@@ -1,7 +1,11 @@
 """The shape of a manifest: which key holds what kind of JSON value."""
 
 from collections.abc import Callable, Iterator, Mapping
+from typing import get_args
 
+from artgen.articulation.types import GripKind
+
+GRIP_KINDS = get_args(GripKind)
 Kind = Callable[[object], bool]
 
 
@@ -45,6 +49,13 @@ VECTOR = listed(number, 3)
 FILE = {"sha256": text, "bytes": whole}
 BOX = table({"type": lambda value: value == "box", "center": VECTOR, "size": VECTOR})
 HULL = table({"type": lambda value: value == "hull", "file": text})
+GRIP = {
+    "name": text,
+    "kind": lambda value: value in GRIP_KINDS,
+    "position": VECTOR,
+    "outward": VECTOR,
+    "pull": VECTOR,
+}
 PART = {
     "name": text,
     "label": text,
@@ -59,6 +70,7 @@ PART = {
     "densities": optional(listed(number)),
     "surfaces": listed(text),
     "collision": listed(lambda value: BOX(value) or HULL(value)),
+    "grips": listed(table(GRIP)),
 }
 JOINT = {
     "name": text,

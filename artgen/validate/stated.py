@@ -2,7 +2,7 @@
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -68,6 +68,21 @@ class StatedBody:
     def label(self) -> str:
         """Part and file, for findings."""
         return f"{self.name} ({self.file})"
+
+
+def without_frames(robot: ET.Element, names: Collection[str]) -> ET.Element:
+    """A URDF less the links of some names that hold nothing, and the fixed joints to them."""
+    empty = {e.get("name") for e in robot.iterfind("link") if e.get("name") in names and not len(e)}
+    joints = robot.iterfind("joint[@type='fixed']")
+    ends = {
+        joint: child.get("link") for joint in joints if (child := joint.find("child")) is not None
+    }
+    dropped = {joint for joint, link in ends.items() if link in empty}
+    held = {ends[joint] for joint in dropped}
+    dropped |= {link for link in robot.iterfind("link") if link.get("name") in held}
+    left = ET.Element(robot.tag, robot.attrib)
+    left.extend(element for element in robot if element not in dropped)
+    return left
 
 
 def urdf_bodies(file: str, robot: ET.Element) -> list[StatedBody]:

@@ -70,7 +70,7 @@ def _tree_finding(file: str, part: str, value: str, bound: str) -> Finding:
 
 def links(subject: BundleSubject) -> Iterator[Finding]:
     """Every link has mass properties, collision and a visual; loaders invent what is missing."""
-    for link in subject.urdf.iterfind("link"):
+    for link in subject.robot.iterfind("link"):
         for tag in ("inertial", "collision", "visual"):
             if link.find(tag) is None:
                 yield missing_element(link.get("name", ""), tag)
@@ -218,7 +218,7 @@ AGREE = ("type", "parent", "child", "axis", "lower", "upper", "friction", "dampi
 def agreement(subject: BundleSubject) -> Iterator[Finding]:
     """URDF and manifest state the same joints, number for number, and as many contact pieces."""
     yield from _piece_counts(subject)
-    stated = {joint.name: joint for joint in urdf_joints(URDF, subject.urdf)}
+    stated = {joint.name: joint for joint in urdf_joints(URDF, subject.robot)}
     ours = {joint.name: joint for joint in manifest_joints(MANIFEST, subject.manifest)}
     for name in sorted(set(stated) ^ set(ours)):
         file = URDF if name in stated else MANIFEST
@@ -234,7 +234,7 @@ def agreement(subject: BundleSubject) -> Iterator[Finding]:
 
 def _piece_counts(subject: BundleSubject) -> Iterator[Finding]:
     counts = {
-        link.get("name"): len(link.findall("collision")) for link in subject.urdf.iter("link")
+        link.get("name"): len(link.findall("collision")) for link in subject.robot.iterfind("link")
     }
     for entry in subject.manifest["parts"]:
         if not isinstance(entry, dict) or not isinstance(entry.get("collision"), list):

@@ -16,6 +16,7 @@ from artgen.articulation.types import Mimic
 from artgen.core.errors import ArtgenError, GeometryError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.transform import rigid
+from artgen.export.urdf import matrix_from_rpy
 from artgen.geometry.solid import Solid, box, cylinder
 from artgen.validate.assembly import Assembly, FileJoint, Geometry, LinkMass, assembled, moved
 from artgen.validate.foreign_subject import ForeignSubject
@@ -183,13 +184,7 @@ def pose_of(element: ET.Element) -> Floats:
     rpy = numbers(origin.get("rpy", "0 0 0"))
     if len(xyz) != 3 or len(rpy) != 3 or not np.isfinite([*xyz, *rpy]).all():
         raise GeometryError(f"an <origin> of <{element.tag}> is not six finite numbers")
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
-    turn = [
-        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-        [-sp, cp * sr, cp * cr],
-    ]
-    return rigid(turn, xyz)
+    return rigid(matrix_from_rpy(rpy), xyz)
 
 
 def _with_default_center(body: StatedBody) -> StatedBody:

@@ -83,6 +83,46 @@ def assert_same_physics(found: FileJoint, own: FileJoint, *, rtol: float) -> Non
         assert_allclose(found.spring.reference, own.spring.reference, rtol=rtol, atol=1e-37)
 
 
+def assert_same_grips(found: FileKinematics, obj: ArticulatedObject, *, atol: float) -> None:
+    """Names, parts and frames; words and directions where the format has them."""
+    ours = {grip.name: grip for grip in stated(obj).grips}
+    assert {grip.name for grip in found.grips} == set(ours)
+    for grip in found.grips:
+        own = ours[grip.name]
+        assert grip.part == own.part
+        assert_allclose(grip.frame, own.frame, rtol=0, atol=atol, err_msg=grip.name)
+        assert grip.kind in (None, own.kind)
+        for word in ("outward", "pull"):
+            if getattr(grip, word) is not None:
+                assert_allclose(getattr(grip, word), getattr(own, word), rtol=0, atol=atol)
+
+
+@pytest.mark.parametrize("kind", ["urdf", "mjcf", "usd"])
+def test_every_format_states_the_grips(kind: str, written: tuple[ArticulatedObject, Path]) -> None:
+    """Origins add up as those of joints; rotations pass through angles or quaternions, a few
+    roundings. USD keeps all of a frame in float64."""
+    obj, folder = written
+    assert_same_grips(READERS[kind](folder), obj, atol=1e-15)
+
+
+def test_libraries_that_know_nothing_of_us_see_the_grips(
+    written: tuple[ArticulatedObject, Path],
+) -> None:
+    """As sites in MuJoCo, as frames in pinocchio and yourdfpy, moved with their parts; bodies
+    without mass in MuJoCo's reading of the URDF."""
+    obj, folder = written
+    ours = {grip.name: grip for grip in stated(obj).grips}
+    for state in poses_in_time(obj):
+        poses = exported.our_poses(obj, state)
+        expected = {name: poses[grip.part] @ grip.frame for name, grip in ours.items()}
+        for reader, frames in exported.grip_frames(obj, folder, state).items():
+            for name, frame in expected.items():
+                where, atol = f"{reader}: {name}", 5e-7 if "yourdfpy" in reader else 1e-14
+                assert_allclose(frames[name], frame, rtol=0, atol=atol, err_msg=where)
+    model = exported.mujoco_model(folder, layout.URDF)
+    assert all(model.body(name).mass[0] == 0.0 for name in ours)
+
+
 def assert_same_latch(found: FileJoint, own: FileJoint, *, rtol: float) -> None:
     assert (found.latch is None) == (own.latch is None)
     if found.latch and own.latch:
@@ -318,6 +358,7 @@ def test_glb_states_the_same_kinematics_and_masses(bundles: dict[str, Path], nam
     """Extras keep float64; the axes swap and change sign exactly, and origins add up as in URDF."""
     obj = READY[name]()
     found = READERS["glb"](bundles[name])
+    assert_same_grips(found, obj, atol=1e-15)
     assert_same_kinematics(found, obj, rtol=8 * 2.0**-53)
     for part in obj.parts:
         mass = found.masses[part.name]
@@ -350,6 +391,7 @@ def test_bundle_reads_back_typed(bundles: dict[str, Path], name: str) -> None:
     for part, own in zip(bundle.parts, obj.parts, strict=True):
         assert (part.name, part.label, part.mass.mass) == (own.name, own.label, own.mass.mass)
         assert_array_equal(part.mass.inertia, own.mass.inertia)
+        assert part.grips == own.grips
         mesh = bundle.load_mesh(part.name)
         assert_array_equal(mesh.triangles, own.mesh.triangles)
         assert part.triangles == len(mesh.faces)

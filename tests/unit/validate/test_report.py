@@ -24,7 +24,7 @@ from tests.unit.validate.test_object_defects import DEFECTS
 ELSEWHERE = {
     *("files.survives", "motion.pinocchio", "motion.passage", "dynamics.hold", "dynamics.free"),
     *("semantics.interior", "semantics.reach", "dynamics.effects", "semantics.apart"),
-    "semantics.role",
+    *("semantics.role", "semantics.grip", "structure.grip"),
 }
 """Planted by tests of their own, or a note."""
 ROOT = Path(__file__).parents[3]
