@@ -132,7 +132,8 @@ class SwingLeaf:
                 rules.append(rule)
             else:
                 bodies += handle.bodies
-            grips += () if latch else handle.grips
+            if not latch:  # It does not turn: the leaf is drawn by it.
+                grips += tuple(replace(grip, pull=(0.0, -1.0, 0.0)) for grip in handle.grips)
         bodies += tuple(self.hinge.leaf_side(z, m.hinge) for z in self.heights) + extras
         leaf = DraftPart(name=self.name, label="door", bodies=bodies, grips=grips)
         return Hung(
