@@ -8,11 +8,11 @@ from typing import Literal
 import numpy as np
 
 from artgen.generators.kit.control_console import PanelPlane
+from artgen.generators.kit.control_panel import ControlPanel
 from artgen.generators.kit.dial import DialStyle
 from artgen.generators.kit.heel_door import HeelDoor
 from artgen.generators.kit.hob import Hob, zone_radii
 from artgen.generators.kit.lined_cavity import LinedCavity
-from artgen.generators.kit.control_panel import ControlPanel
 from artgen.generators.kit.oven_rack import OvenRack, RackLadders
 from artgen.generators.kit.window_leaf import Window
 
@@ -244,10 +244,13 @@ def heel_fits_door(p: OvenParams) -> bool:
 
 
 def shelves_have_levels(p: OvenParams) -> bool:
-    """Each rack has its own pair of rails, with room for what stands on it."""
+    """Each rack has its own pair of rails, with room for the stop of the rack below it."""
     used = [shelf.level for shelf in p.shelves]
-    return len(set(used)) == len(used) and p.tray_depth < 0.8 * (
-        p.ladders.levels[1] - p.ladders.levels[0]
+    heights = [p.ladders.levels[level] for level in used]
+    deep = [p.tray_depth + 0.045 if shelf.name == "baking_tray" else 0.045 for shelf in p.shelves]
+    return len(set(used)) == len(used) and all(
+        upper - lower > need
+        for lower, upper, need in zip(heights[:-1], heights[1:], deep[1:], strict=True)
     )
 
 
