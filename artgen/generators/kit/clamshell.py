@@ -14,7 +14,7 @@ from artgen.articulation.types import Body
 from artgen.core.mesh import Floats
 from artgen.generators.kit.board import Stock
 from artgen.geometry.profile import rounded_rectangle
-from artgen.geometry.solid import Solid, box, hull, loft, prism, slab, union
+from artgen.geometry.solid import Solid, box, cylinder, hull, loft, prism, slab, union
 
 CORNER_SEGMENTS, ROUND_STEPS = 5, 4
 GAP = 0.0006
@@ -140,6 +140,32 @@ def rim(h: HalfShell, stock: Stock, *, out: float, deep: float) -> Body:
     return stock.piece(standing(ring).at(0.0, -GAP, 0.0), grain="z")
 
 
+def corner_caps(h: HalfShell, metal: Stock) -> list[Body]:
+    """Sheet caps over the four corners of the face, a rivet on each of their three sides."""
+    size, out = h.corner + 0.006, 0.0012
+    skin = _bowl(h, -out, 0.016) - _bowl(h, 0.0, 0.010)
+    bodies = []
+    for sx in (-1.0, 1.0):
+        for z0, z1 in ((h.low - 0.01, h.low + size), (h.high - size, h.high + 0.01)):
+            x0, x1 = sorted((sx * (h.width / 2.0 - size), sx * (h.width / 2.0 + 0.01)))
+            bodies.append(metal.piece(skin & slab((x0, -1.0, z0), (x1, 0.0, z1)), grain="z"))
+            bodies += [metal.piece(rivet) for rivet in _rivets(h, sx, z0 < h.low, size)]
+    return bodies
+
+
+def _rivets(h: HalfShell, sx: float, lower: bool, size: float) -> list[Solid]:
+    """Domed heads on the flat parts of a cap: at the side and at the end."""
+    x, end = sx * h.width / 2.0, h.low if lower else h.high
+    inwards = 1.0 if lower else -1.0
+    dome, y = 0.0022, -0.6 * (h.flat + 0.016)
+    side = cylinder(dome, 0.0032, axis="x", segments=10)
+    top = cylinder(dome, 0.0032, segments=10)
+    return [
+        side.at(x - (0.001 if sx > 0.0 else 0.0022), y, end + inwards * (size - 0.004)),
+        top.at(x - sx * (size - 0.004), y, end - (0.0022 if lower else 0.001)),
+    ]
+
+
 def _vertical(h: HalfShell) -> list[Solid]:
     """Ridges from top to bottom, evenly spread over the face."""
     half = h.width / 2.0 - h.round - 0.012
@@ -154,7 +180,7 @@ def _horizontal(h: HalfShell) -> list[Solid]:
     """Ridges from side to side."""
     half = h.width / 2.0 - h.round - 0.006
     low, high = h.low + h.round + 0.02, h.high - h.round - 0.02
-    wide = 0.27 * (high - low) / h.ribs
+    wide = 0.20 * (high - low) / h.ribs
     return [_ridge((-half, z), (half, z), wide, h) for z in np.linspace(low, high, h.ribs)]
 
 

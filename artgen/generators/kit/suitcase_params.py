@@ -32,6 +32,7 @@ class SuitcaseParams:
     ribs: int
     rib: float
     inside: str
+    caps: bool
     opening_deg: float
     lid_friction: float
     gauge: float

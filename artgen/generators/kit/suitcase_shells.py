@@ -9,6 +9,7 @@ from artgen.generators.kit.cabinet_movers import Works
 from artgen.generators.kit.carry_handle import CarryHandle, carry_handle
 from artgen.generators.kit.clamshell import (
     HalfShell,
+    corner_caps,
     crossed_straps,
     half_shell,
     mirrored_body,
@@ -63,11 +64,14 @@ def telescope_of(p: SuitcaseParams, rear: HalfShell, stocks: Mapping[str, Stock]
     )
 
 
-def _rim(p: SuitcaseParams, half: HalfShell, stocks: Mapping[str, Stock]) -> tuple[Body, ...]:
-    """A frame, or the zip's tape with its teeth at the edge."""
+def _shell(p: SuitcaseParams, half: HalfShell, stocks: Mapping[str, Stock]) -> tuple[Body, ...]:
+    """A lined half in a frame, by choice with corner caps; or with a zip's tape and its teeth."""
+    shell = half_shell(half, stocks["shell"], stocks["lining"])
     if p.closure == "frame":
-        return (rim(half, stocks["frame"], out=0.0018, deep=0.013),)
+        caps = corner_caps(half, stocks["frame"]) if p.caps else ()
+        return (*shell, *caps, rim(half, stocks["frame"], out=0.0018, deep=0.013))
     return (
+        *shell,
         rim(half, stocks["strap"], out=0.0006, deep=0.0085),
         rim(half, stocks["hub"], out=0.0013, deep=0.0024),
     )
@@ -78,11 +82,8 @@ def rear_half(
 ) -> tuple[Body, ...]:
     """The rear half with the pocket and guides of the handle, and straps over the clothes."""
     room = pocket_room(handle)
-    shell = [
-        mirrored_body(body)
-        for body in (*half_shell(rear, stocks["shell"], stocks["lining"]), *_rim(p, rear, stocks))
-    ]
-    cut = pierced(tuple(shell), room, clear=room)
+    shell = tuple(mirrored_body(body) for body in _shell(p, rear, stocks))
+    cut = pierced(shell, room, clear=room)
     straps = crossed_straps(rear, 0.018, stocks["strap"], stocks["plastic"])
     return (*cut, *pocket(handle), *straps)
 
@@ -91,7 +92,7 @@ def front_half(
     p: SuitcaseParams, front: HalfShell, stocks: Mapping[str, Stock]
 ) -> tuple[Body, ...]:
     """The front half, its room closed by a zipped panel or held by straps."""
-    shell = (*half_shell(front, stocks["shell"], stocks["lining"]), *_rim(p, front, stocks))
+    shell = _shell(p, front, stocks)
     if p.inside == "divider":
         return (*shell, *zipped_divider(front, -0.010, stocks["lining"], stocks["hub"]))
     return (*shell, *crossed_straps(front, -0.018, stocks["strap"], stocks["plastic"]))
