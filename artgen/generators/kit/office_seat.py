@@ -138,8 +138,8 @@ class OfficeSeat:
         easing = 0.7 * self.corner[1]
         main = slab((-w + easing, split, low), (w - easing, rear, high))
         wide = slab((-w, split, low), (w, rear - easing, high - 0.001))
-        nose = slab((-w + 0.02, front + 0.01, low - 0.3 * self.fall),
-                    (w - 0.02, split, low + self.thickness - 0.55 * self.fall))  # fmt: skip
+        nose = slab((0.5 * self.corner[0] - w, front + 0.01, low - 0.3 * self.fall),
+                    (w - 0.5 * self.corner[0], split, low + self.thickness - 0.55 * self.fall))  # fmt: skip
         seam = piping(outline, (0.0003, 0.50 * self.thickness), self._on_cushion, 0.0024)
         bodies = [cover.piece(solid, contact=(main, wide, nose)), cord.piece(seam)]
         if self.panel:
