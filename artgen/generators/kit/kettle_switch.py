@@ -4,7 +4,6 @@ import math
 
 from artgen.articulation.types import Body, DraftPart, Grip, Joint, Limit
 from artgen.generators.kit.control_console import PanelPlane
-from artgen.generators.kit.density import ABS
 from artgen.generators.kit.kettle_jug import SLOT
 from artgen.generators.kit.kettle_params import KettleParams
 from artgen.generators.kit.push_button import PushButton
@@ -56,7 +55,7 @@ def lever_joint(p: KettleParams, parent: str) -> Joint:
     return Joint(
         name="switch_press", type="revolute", parent=parent, child="switch", axis=(-1.0, 0.0, 0.0),
         origin=(0.0, *_axis(p)), limit=Limit(lower=0.0, upper=math.radians(p.switch_deg)),
-        friction=0.02, damping=0.0004, effort=1.0,
+        friction=0.02, damping=0.0004, effort=1.0, velocity=0.6,
     )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""Whistling kettles for the stove: domed body, spout with a flap, lid with a knob, arched handle."""
+"""Whistling kettles for the stove: domed body, spout with a flap, lid with a knob, handle."""
 
 import math
 from dataclasses import dataclass
@@ -208,8 +208,8 @@ def _flap(k: StoveKettle) -> DraftPart:
     near, far = k.along(start + 0.0005, 0.6 * r), k.along(start + 0.0060, 0.6 * r)
     arm = hull([(x, y, z) for x in (-0.0042, 0.0042)
                 for _, y, z in (near, far, *barrel.trimesh().vertices.tolist())])  # fmt: skip
-    tip = k.along(k.spout_length + 0.0135, k.spout + 0.026)
-    waist = k.along(k.spout_length + 0.0080, k.spout + 0.0150)
+    tip = k.along(k.spout_length + 0.0095, k.spout + 0.0162)
+    waist = k.along(k.spout_length + 0.0060, k.spout + 0.0118)
     thumb = _bar(axis, waist, 0.0042) | _bar(waist, tip, 0.0080)
     middle = k.along(start + 0.006)
     half = 0.6 * r
@@ -256,7 +256,8 @@ def _lid(k: StoveKettle) -> DraftPart:
     bodies = (
         Body(
             solid=revolve(outline, segments=48) - hollow, surface=k.skin, density=3200.0,
-            collision=(*round_boxes(r, low, low + 0.003), square_box(0.85 * inner, low - PLUG, low)),
+            collision=(*round_boxes(r, low, low + 0.003),
+                       square_box(0.85 * inner, low - PLUG, low)),
         ),
         Body(solid=knob.at(z=top), surface="grip", density=ABS,
              collision=tuple(piece.at(z=top) for piece in contact)),
@@ -285,8 +286,9 @@ def _fixed_handle(k: StoveKettle) -> list[Body]:
     ]
     if k.handle == "arch":
         ahead = _front_foot(k)
-        corners += [(-0.62 * ahead, k.top), (-1.02 * ahead, 0.3 * k.surface_at(ahead) + 0.7 * k.top),
-                    (-ahead, k.surface_at(ahead) - 0.002)]  # fmt: skip
+        low = k.surface_at(ahead)
+        corners += [(-0.62 * ahead, k.top), (-1.02 * ahead, 0.3 * low + 0.7 * k.top),
+                    (-ahead, low - 0.002)]  # fmt: skip
     else:
         corners += [(-0.62 * k.radius, k.top + 0.006)]
     path = bent_line(corners, 0.045)
@@ -314,9 +316,9 @@ def _shoe(y: float, z: float, width: float) -> Solid:
     return slab((-half, y - 0.014, z - 0.010), (half, y + 0.013, z + 0.011))
 
 
-def _handle_grip(k: StoveKettle) -> Grip:
+def _handle_grip(k: StoveKettle, pull: Vector = (0.0, 0.0, 1.0)) -> Grip:
     return Grip(name="kettle_handle", kind="handle", position=(0.0, 0.0, k.top),
-                outward=(0.0, 0.0, 1.0), pull=(0.0, 0.0, 1.0))  # fmt: skip
+                outward=(0.0, 0.0, 1.0), pull=pull)  # fmt: skip
 
 
 def _pivot(k: StoveKettle) -> tuple[float, float]:
@@ -361,7 +363,8 @@ def _bail(k: StoveKettle) -> DraftPart:
              collision=tuple(_kept(b) for b in arms)),
         Body(solid=sleeve, surface="grip", density=ABS, collision=(middle,)),
     )  # fmt: skip
-    return DraftPart(name="handle", label="handle", bodies=bodies, grips=(_handle_grip(k),))
+    return DraftPart(name="handle", label="handle", bodies=bodies,
+                     grips=(_handle_grip(k, (0.0, 1.0, 0.0)),))  # fmt: skip
 
 
 def _kept(box: Solid) -> Solid:
