@@ -83,21 +83,21 @@ def _prints(p: StaplerParams, looks: Mapping[str, SurfaceSpec]) -> tuple[Surface
 
 def _magazine_joint(p: StaplerParams) -> Joint:
     """Pressed down onto the anvil, or opened up to tack; its spring holds it at rest."""
-    tacks = p.action == "tack"
-    stiffness = p.press_torque / (4.0 * p.press)
+    torque = p.press_torque * p.bulk * p.mouth / -0.157
+    stiffness = torque / (8.0 * p.press)
     return Joint(
         name="magazine_hinge",
         type="revolute",
         parent="base",
         child="magazine",
-        axis=UP if tacks else DOWN,
+        axis=UP if p.tacks else DOWN,
         origin=(0.0, 0.0, p.pivot),
-        limit=Limit(lower=0.0, upper=1.2 if tacks else p.press),
-        friction=0.12 if tacks else 0.03,
+        limit=Limit(lower=0.0, upper=1.2 if p.tacks else p.press),
+        friction=0.12 if p.tacks else 0.03,
         damping=0.01,
         effort=20.0,
-        spring=None if tacks else Spring(stiffness=stiffness, reference=-4.0 * p.press),
-        latch=Latch(force=0.25, reach=0.06) if tacks else None,
+        spring=None if p.tacks else Spring(stiffness=stiffness, reference=-8.0 * p.press),
+        latch=Latch(force=0.25, reach=0.06) if p.tacks else None,
     )
 
 

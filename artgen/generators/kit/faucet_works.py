@@ -143,7 +143,7 @@ def _spout_part(bodies: tuple[Body, ...], path: SpoutPath) -> DraftPart:
     grip = Grip(
         name="spout_grip",
         kind="handle",
-        position=path.end,
+        position=_moved(path.end, path.aim, -0.035),
         outward=(0.0, -1.0, 0.0),
         pull=(1.0, 0.0, 0.0),
     )

@@ -39,7 +39,7 @@ def arm(p: StaplerParams) -> DraftPart:
         Stock(surface="arm", density=ZINC * 0.5 if p.one_color else 1350.0, edge=0.0016).piece(
             solid.at(z=z), contact=tuple(piece.at(z=z) for piece in _arm_contact(p, hollow))
         ),
-        steel().piece((driver & shell.hull()).at(z=z)),
+        steel().piece((driver & _along_x(inset_convex(shape, 0.5 * wall), -1.0, 1.0)).at(z=z)),
     ]
     if p.pad:
         pad = _pad(p).at(z=z)
@@ -55,7 +55,7 @@ def arm(p: StaplerParams) -> DraftPart:
     grip = Grip(
         name="arm_press", kind="lever", position=at, outward=(0.0, 0.0, 1.0), pull=(0.0, 0.0, 1.0)
     )
-    return DraftPart(name="arm", label="lid", bodies=tuple(bodies), grips=(grip,))
+    return DraftPart(name="arm", label="arm", bodies=tuple(bodies), grips=(grip,))
 
 
 def _along_x(outline: Floats, low: float, high: float) -> Solid:

@@ -16,6 +16,8 @@ PLAY = 0.0012
 """m; between neighbors on the hinge pin."""
 PIN = 0.0024
 """m; radius of the hinge pin."""
+ANVIL = 0.0016
+"""m; by which the anvil stands out of the base."""
 SIZES = {"full": 1.0, "half": 0.72, "mini": 0.42, "long_reach": 1.85, "heavy": 1.4}
 """Length of the magazine by kind, in that of a full strip."""
 
@@ -64,7 +66,17 @@ class StaplerParams:
     @property
     def pivot(self) -> float:
         """z of the hinge."""
-        return self.base_top + self.gap + 0.0080
+        return self.base_top + self.clear + 0.0080
+
+    @property
+    def tacks(self) -> bool:
+        """Whether the magazine opens up; else it is pressed down."""
+        return self.action == "tack" or self.kind == "long_reach"
+
+    @property
+    def clear(self) -> float:
+        """Between base and magazine; what is pressed turns by 3 degrees at least."""
+        return self.gap if self.tacks else max(self.gap, 0.0525 * -self.mouth + ANVIL + 0.0014)
 
     @property
     def base_top(self) -> float:
@@ -74,7 +86,7 @@ class StaplerParams:
     @property
     def press(self) -> float:
         """rad by which the magazine turns until it meets the anvil, less a millimeter."""
-        return math.asin((self.gap - 0.0018) / -self.mouth)
+        return math.asin((self.clear - ANVIL - 0.0012) / -self.mouth)
 
     @property
     def arm_half(self) -> tuple[float, float]:
@@ -103,7 +115,7 @@ class StaplerParams:
     @property
     def arm_round(self) -> float:
         """Radius of the arm's end around the pin."""
-        return 0.0118
+        return 0.0124
 
     @property
     def opened(self) -> float:

@@ -1,6 +1,7 @@
 """The parts of a stapler: base with anvil, magazine with staples, follower, arm."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.density import ABS, RUBBER, STEEL
 from artgen.generators.kit.printed import plate
 from artgen.generators.kit.stapler_design import (
+    ANVIL,
     CHANNEL,
     PIN,
     SHEET,
@@ -45,11 +47,21 @@ def base(p: StaplerParams) -> DraftPart:
         *_ears(p),
         _leaf_spring(p),
     ]
+    if p.inlay and p.kind != "long_reach":
+        bodies.append(_inlay(p))
     if not p.anvil_turns:
         bodies.append(_anvil(p))
     if p.kind == "long_reach":
         bodies.append(_ruler(p))
     return DraftPart(name="base", label="base", bodies=tuple(bodies))
+
+
+def _inlay(p: StaplerParams) -> Body:
+    """A strip of bright sheet on the base between anvil and ears."""
+    front, rear = anvil_place(p) + p.anvil + 0.004, -0.014
+    outline = rounded_rectangle(1.1 * p.base_half, rear - front, 0.003, segments=3)
+    strip = prism(outline, 0.0012).at(0.0, (front + rear) / 2.0, p.base_top - 0.0008)
+    return steel(0.0002).piece(strip)
 
 
 def anvil_place(p: StaplerParams) -> float:
@@ -82,7 +94,7 @@ def _ears(p: StaplerParams) -> list[Body]:
 
 def _leaf_spring(p: StaplerParams) -> Body:
     """A bent strip on the base that lifts the magazine; low enough for the pressed one."""
-    rise = 0.45 * (p.gap - 0.002)
+    rise = 0.45 * (p.clear - 0.003)
     far = 0.42 * p.mouth
     path = [
         (0.0, -0.012, p.base_top + 0.0003),
@@ -108,29 +120,26 @@ def _anvil(p: StaplerParams) -> Body:
         slab((x - 0.0028, y - 0.0007, 0.0026), (x + 0.0028, y + 0.0007, 0.004))
         for x, y in ((-0.0036, 0.0024), (0.0036, 0.0024), (-0.0050, -0.0030), (0.0050, -0.0030))
     ]
-    place = (0.0, anvil_place(p), p.base_top - 0.0024 + 0.001)
+    place = (0.0, anvil_place(p), p.base_top + ANVIL - 0.0030)
     half = 0.7 * p.anvil
-    box = slab((-half, -half, 0.0012), (half, half, 0.0030)).at(*place)
+    box = slab((-half, -half, 0.0018), (half, half, 0.0030)).at(*place)
     return steel(0.0003).piece((disc - union(grooves)).at(*place), contact=(box,))
 
 
 def anvil_part(p: StaplerParams) -> DraftPart:
     """The anvil that turns in its recess between clinching and pinning."""
-    top = (0.0, anvil_place(p), p.base_top + 0.0016)
+    rim = (0.0, anvil_place(p) - p.anvil, p.base_top + 0.5 * ANVIL)
     grip = Grip(
-        name="anvil_rim", kind="rim", position=top, outward=(0.0, 0.0, 1.0), pull=(1.0, 0.0, 0.0)
+        name="anvil_rim", kind="rim", position=rim, outward=(0.0, -1.0, 0.0), pull=(1.0, 0.0, 0.0)
     )
-    return DraftPart(name="anvil", label="turntable", bodies=(_anvil_lifted(p),), grips=(grip,))
+    return DraftPart(name="anvil", label="turntable", bodies=(_loose_anvil(p),), grips=(grip,))
 
 
-def _anvil_lifted(p: StaplerParams) -> Body:
+def _loose_anvil(p: StaplerParams) -> Body:
+    """The anvil cut off above the floor of its recess."""
+    under = slab((-1.0, -1.0, 0.0), (1.0, 1.0, p.base_top - 0.0008))
     body = _anvil(p)
-    return Body(
-        solid=body.solid.at(z=0.0008) - slab((-1.0, -1.0, 0.0), (1.0, 1.0, p.base_top - 0.0010)),
-        surface=body.surface,
-        density=body.density,
-        collision=tuple(piece.at(z=0.0008) for piece in body.collision),
-    )
+    return replace(body, solid=body.solid - under)
 
 
 def _ruler(p: StaplerParams) -> Body:
@@ -170,21 +179,17 @@ def magazine(p: StaplerParams) -> DraftPart:
     """A channel of sheet with a nose, the strip of staples in it, the follower's rod behind."""
     z, c = p.pivot, CHANNEL
     low, high = z - 0.0080, z + 0.0030
-    rear = 0.0068
-    walls = [
-        slab(
-            (s * c if s < 0 else c - SHEET, p.mouth, low), (-c + SHEET if s < 0 else c, rear, high)
-        )
-        for s in (-1, 1)
-    ]
-    floor = slab((-c, p.mouth, low), (c, rear - 0.003, low + SHEET))
+    edges = ((-c, -c + SHEET), (c - SHEET, c))
+    walls = [slab((a, p.mouth, low), (b, 0.0, high)) for a, b in edges]
+    lugs = [cylinder(0.0064, b - a, axis="x", segments=18).at(a, 0.0, z) for a, b in edges]
+    floor = slab((-c, p.mouth, low), (c, -0.001, low + SHEET))
     nose = slab((-c, p.mouth, low), (c, p.mouth + 0.0012, high + 0.0012))
     exit_ = slab(
         (-c + 0.0006, p.mouth + 0.0014, low - 0.01),
         (c - 0.0006, p.mouth + 0.0026, low + SHEET + 0.001),
     )
     bore = cylinder(PIN + 0.0006, 0.1, axis="x", segments=14).at(-0.05, 0.0, z)
-    channel = (union([*walls, floor, nose]) - bore) - exit_
+    channel = (union([*walls, *lugs, floor, nose]) - bore) - exit_
     front_walls = [wall & slab((-1.0, -1.0, 0.0), (1.0, -PIN - 0.001, 1.0)) for wall in walls]
     rod = cylinder(0.0011, -p.mouth - 0.006, axis="y", segments=8).at(
         0.0, p.mouth + 0.001, rod_height(p)
@@ -201,7 +206,7 @@ def magazine(p: StaplerParams) -> DraftPart:
         kind="edge",
         position=at,
         outward=(0.0, -1.0, 0.0),
-        pull=(0.0, 0.0, 1.0),
+        pull=(0.0, 0.0, 1.0 if p.tacks else -1.0),
     )
     return DraftPart(name="magazine", label="arm", bodies=tuple(bodies), grips=(grip,))
 
