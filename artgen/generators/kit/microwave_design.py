@@ -153,6 +153,7 @@ class MicrowaveParams:
             brand=self.brand,
             time=TIMES[self.time],
             led=self.led,
+            tagline="800 W",
         )
 
     @cached_property

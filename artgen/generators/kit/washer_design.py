@@ -148,6 +148,7 @@ class WasherParams:
             time=TIMES[self.time],
             led=self.led,
             endless=self.endless,
+            tagline=f"{6 + round(20.0 * (self.depth - 0.43))} kg  1400",
         )
 
     @property
