@@ -14,7 +14,7 @@ from artgen.generators.kit.chair_member import FLOOR, Member
 from artgen.generators.kit.cushion import COARSE, Warp, pad, plan, upholstered
 from artgen.generators.kit.fold_linkage import FoldLinkage, Point
 from artgen.generators.kit.wire_rack import bent
-from artgen.geometry.solid import Solid, box, cylinder, slab, union, wire
+from artgen.geometry.solid import Solid, box, cylinder, loft, slab, union, wire
 
 PIN = 0.0040
 """m; radius of the pins."""
@@ -109,8 +109,11 @@ class FoldingFrame:
 
     @property
     def back_top(self) -> Point:
-        """(y, z) of the upper end of the posts."""
-        return self._path()[-1]
+        """(y, z) of the middle of the back's upper edge."""
+        y, z = self.linkage.on_frame(self.bend)
+        lean, rise = self._upper_lean, self._upper_length - 0.018
+        cos, sin = math.cos(lean), math.sin(lean)
+        return y + rise * sin + self.bow * cos, z + rise * cos - self.bow * sin
 
     def base_bodies(
         self, stock: Stock, metal: Stock, rubber: Stock, back: Stock, soft: Stock
@@ -223,11 +226,15 @@ class FoldingFrame:
 
     def _panel(self, stock: Stock, rise: float, height: float, thick: float) -> Body:
         """A hollowed board or sheet between the posts."""
-        width, bow = 2.0 * self.post_x, self.bow
-        outline = plan(width, height, min(0.018, 0.4 * height), segments=3)
-        half = thick / 2.0
-        steps = [(0.0015, -half), (0.0, 0.0015 - half), (0.0, half - 0.0015), (0.0015, half)]
-        solid = pad(outline, steps, self._hollow(0.0))
+        bow, half = self.bow, thick / 2.0
+        ease = 0.3 * half
+        section = np.array([(-half, ease), (-half + ease, 0.0), (half - ease, 0.0), (half, ease)])
+        section = np.concatenate([section, (section * (1.0, -1.0) + (0.0, height))[::-1]])
+        rings = [
+            np.c_[np.full(8, x), section + (bow * (1.0 - (x / self.post_x) ** 2), -height / 2.0)]
+            for x in np.linspace(-self.post_x, self.post_x, 8)
+        ]
+        solid = loft(rings)
         if self.hand_hole and height > 0.09:
             hole = box((0.11, 0.2, 0.026), at=(0.0, 0.0, 0.5 * height - 0.052))
             solid = solid - hole

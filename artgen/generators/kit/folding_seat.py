@@ -88,7 +88,7 @@ class FoldingSeat:
         outline = plan(2.0 * self.frame.seat_half, rear - front, 0.035, segments=3)
         reach = min(self.frame.seat_half, (rear - front) / 2.0)
         edge = 0.35 * thick
-        steps = [(edge, 0.0), (0.0, edge), (0.0, thick - edge), (edge, thick)]
+        steps = [(0.7 * reach, 0.0), (edge, 0.0), (0.0, edge), (0.0, thick - edge), (edge, thick)]
         steps += [(share * reach, thick) for share in (0.3, 0.6, 0.9)]
         solid = pad(outline, steps, self._pressed)
         half = self.frame.seat_half - 0.012

@@ -132,14 +132,14 @@ class OfficeSeat:
         )
         solid = pad(outline, steps, self._on_cushion)
         w, d = self.width / 2.0 - 0.012, self.depth / 2.0
-        low = self.pan + PAN
+        low, tip = self.pan + PAN, w - 0.5 * self.corner[0]
         front, split = self.middle - d, self.middle - 0.62 * d
         rear, high = self.middle + d - 0.008, low + self.thickness - 0.003
         easing = 0.7 * self.corner[1]
         main = slab((-w + easing, split, low), (w - easing, rear, high))
         wide = slab((-w, split, low), (w, rear - easing, high - 0.001))
-        nose = slab((0.5 * self.corner[0] - w, front + 0.01, low - 0.3 * self.fall),
-                    (w - 0.5 * self.corner[0], split, low + self.thickness - 0.55 * self.fall))  # fmt: skip
+        nose = slab((-tip, front + 0.01, low - 0.3 * self.fall),
+                    (tip, split, low + self.thickness - 0.55 * self.fall))  # fmt: skip
         seam = piping(outline, (0.0003, 0.50 * self.thickness), self._on_cushion, 0.0024)
         bodies = [cover.piece(solid, contact=(main, wide, nose)), cord.piece(seam)]
         if self.panel:
