@@ -65,6 +65,8 @@ def fronts_suit_kind(p: StorageParams) -> bool:
     """Grips milled into an edge need plain fronts; glass stands over closed doors only."""
     if p.grip in MILLED and (p.style != "slab" or p.kind == "secretary"):
         return False
+    if p.style == "louvred" and p.kind == "wardrobe" and p.width > 1.2:
+        return False  # Some 45 slats a door make large files.
     return p.style != "glass" or p.kind in ("hutch", "bookcase")
 
 

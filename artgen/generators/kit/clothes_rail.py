@@ -20,10 +20,10 @@ HOOK = 0.0165
 def clothes_rail(room: Rect, y: float, z: float, steel: Stock) -> tuple[Body, ...]:
     """A steel tube across the room with its axis at (y, z), a round socket at each end."""
     length = room.width - 0.002
-    rod = tube(ROD, ROD - 0.0012, length, axis="x", segments=20).at(room.x0 + 0.001, y, z)
+    rod = tube(ROD, ROD - 0.0012, length, axis="x", segments=16).at(room.x0 + 0.001, y, z)
     contact = slab((room.x0, y - 0.01, z - 0.01), (room.x1, y + 0.01, z + 0.01))
     sockets = [
-        tube(ROD + 0.006, ROD + 0.0002, 0.009, axis="x", segments=20).at(x, y, z)
+        tube(ROD + 0.006, ROD + 0.0002, 0.009, axis="x", segments=14).at(x, y, z)
         for x in (room.x0, room.x1 - 0.009)
     ]
     return (
@@ -52,7 +52,7 @@ def hanger(x: float, y: float, z: float, *, lean: float, wood: Stock, steel: Sto
 def _shoulders() -> Solid:
     """Two sloping arms in one bow, 13 mm thick, drawn in the y, z plane with the neck at zero."""
     half, thick = 0.205, 0.013
-    top = [(s * half, 0.004 - 0.115 * abs(s) ** 1.35) for s in np.linspace(-1.0, 1.0, 9)]
+    top = [(s * half, 0.004 - 0.115 * abs(s) ** 1.35) for s in np.linspace(-1.0, 1.0, 7)]
     low = [(y, z - 0.026 + 0.008 * abs(y) / half) for y, z in top][::-1]
     outline = np.array([*low[::-1], *top[::-1]])
     return prism(outline, thick).transformed(_FROM_PLAN).at(-thick / 2.0)
@@ -64,11 +64,11 @@ def _trouser_bar() -> Solid:
 
 def _hook() -> Solid:
     """Up from the neck and over the rail, in the y, z plane; the rail's axis is zero."""
-    bend = arc((0.0, 0.0), HOOK, -0.35 * math.pi, 1.05 * math.pi, 7)
+    bend = arc((0.0, 0.0), HOOK, -0.35 * math.pi, 1.05 * math.pi, 6)
     foot = [(0.0, -0.064), (0.0, -HOOK - 0.012)]
     plane = np.concatenate([np.asarray(foot), bend])
     path = np.stack([np.zeros(len(plane)), plane[:, 0], plane[:, 1]], axis=1)
-    return wire(path, 0.0016, sides=5)
+    return wire(path, 0.0016, sides=4)
 
 
 _FROM_PLAN = np.array(

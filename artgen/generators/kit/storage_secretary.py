@@ -12,6 +12,7 @@ from artgen.generators.kit.front_layout import Cell, Leaf, Node, Rect, Separator
 from artgen.generators.kit.handle import Handle
 from artgen.generators.kit.storage_block import Block, block, block_works
 from artgen.generators.kit.storage_params import StorageParams, design, whole_case
+from artgen.geometry.solid import Solid, revolve
 
 WRITING, FLAP = 0.73, 0.40
 """Height of the writing surface over the floor, and of the flap, m."""
@@ -107,6 +108,13 @@ def _pigeonholes(p: StorageParams, design: Design, flap: FallFlap) -> Works:
     return works
 
 
+def _small_knob() -> Solid:
+    """A turned button on a short neck, on the face y = 0."""
+    outline = [(0.0, 0.0), (0.003, 0.0), (0.003, 0.008), (0.0068, 0.0105), (0.0068, 0.0135),
+               (0.0045, 0.0155), (0.0, 0.0155)]  # fmt: skip
+    return revolve(outline, axis="y", segments=12).mirrored("y")
+
+
 def _small_drawer(p: StorageParams, design: Design, place: Rect, front: float, name: str) -> Works:
     """A little box with a knob that slides on the floor; the flap must lie open before it."""
     length, t = min(0.22, design.case.rear - front - 0.01), 0.006
@@ -123,13 +131,13 @@ def _small_drawer(p: StorageParams, design: Design, place: Rect, front: float, n
         box.board((inner[0], back - t, place.z0), (inner[1], back, height)),
         box.board((inner[0], front + 0.01, place.z0), (inner[1], back - t, place.z0 + 0.004)),
     ]
-    knob = Handle(style="knob", length=0.02, radius=0.0036, standoff=0.02)
+    knob = _small_knob().at(x, front, z)
     front_board = face.board((place.x0, front, place.z0), (place.x1, front + 0.01, place.z1))
     outward = (0.0, -1.0, 0.0)
     part = DraftPart(
         name=name,
         label="drawer",
-        bodies=(front_board, *sides, *rest, knob.at(x, front, z, "x", stocks["metal"])),
+        bodies=(front_board, *sides, *rest, stocks["metal"].piece(knob)),
         grips=(
             Grip(
                 name=f"{name}_knob",
