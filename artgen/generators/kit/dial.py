@@ -44,7 +44,7 @@ class Dial:
 
     def hole(self) -> Solid:
         """What the face must leave free for the shaft, in the face's frame."""
-        return cylinder(SHAFT + PLAY, 0.0135, segments=16).at(*self.center, -0.0095)
+        return cylinder(SHAFT + PLAY, 0.0135, segments=12).at(*self.center, -0.0095)
 
     def part(self, plane: PanelPlane, surface: str, mark: str, *, density: float) -> DraftPart:
         """Knob and shaft of `surface`, the pointer of `mark`."""

@@ -134,10 +134,10 @@ def _gas(hob: Hob) -> tuple[Body, ...]:
     crowns, caps = [], []
     for (x, y), radius in zip(hob.places, hob.zones, strict=True):
         r = 0.50 * radius
-        well = cone(1.35 * r, 1.15 * r, 0.004, segments=28)
-        crown = cylinder(r, 0.016, segments=28)
+        well = cone(1.35 * r, 1.15 * r, 0.004, segments=20)
+        crown = cylinder(r, 0.016, segments=20)
         crowns.append(union([well, crown]).at(x, y, hob.top - 0.0005))
-        cap = cone(0.92 * r, 0.80 * r, 0.007, segments=28)
+        cap = cone(0.92 * r, 0.80 * r, 0.007, segments=20)
         caps.append(cap.at(x, y, hob.top + 0.0155))
     grates = [_grate(hob, side) for side in (0, 1)]
     return (

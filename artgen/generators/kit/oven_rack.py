@@ -106,7 +106,7 @@ class OvenRack:
         """A wire shelf: a bent frame, bars from front to back, a stop that rises at the rear."""
         z, x, r = self.ladders.rest(self.level), self.ladders.half, self.bar
         corners = [(-x, self.front, z), (x, self.front, z), (x, self.back, z), (-x, self.back, z)]
-        frame = wire(bent(corners, 0.012, closed=True), EDGE, sides=6, closed=True)
+        frame = wire(bent(corners, 0.012, closed=True), EDGE, sides=SIDES, closed=True)
         over = 1.02 * (r + EDGE)
         bars = [
             wire(

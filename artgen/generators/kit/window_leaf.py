@@ -39,7 +39,7 @@ class Window:
         size = np.subtract(self.upper, self.lower) + 2.0 * grown
         middle = np.add(self.upper, self.lower) / 2.0
         outline: Floats = rounded_rectangle(
-            size[1], size[0], max(0.001, self.radius + grown), segments=4
+            size[1], size[0], max(0.001, self.radius + grown), segments=3
         )
         return upright(prism(outline, back - front), "y").at(
             x=float(middle[0]), y=front, z=float(middle[1])
