@@ -90,7 +90,9 @@ class _Reader:
     def rule(self, data: Mapping[str, Any], palette: Mapping[str, Any]) -> CategoryRule:
         self.known_keys("", data, TABLES)
         head = self.table(data, "category")
-        self.known_keys("category", head, ("name", "version", "summary", "tries", "held"))
+        self.known_keys(
+            "category", head, ("name", "version", "summary", "tries", "held", "mounted")
+        )
         surfaces = {
             role: self.surface(role, entry, palette)
             for role, entry in self.table(data, "surfaces").items()
@@ -109,6 +111,7 @@ class _Reader:
             invariants=tuple(self.invariant(i) for i in data.get("invariant", [])),
             tries=self.of_type("category.tries", head.get("tries", 200), int),
             held=tuple(self.of_type("category.held", head.get("held", []), list)),
+            mounted=self.of_type("category.mounted", head.get("mounted", False), bool),
             file=self.file,
             digest=content_hash([data, used]),
         )

@@ -36,6 +36,7 @@ class CategoryRule:
         surfaces: role in the builder to a choice among palette entries of `_surfaces*.toml`.
         invariants: names of predicates that the builder's module defines.
         held: labels of parts that stay at every angle: friction barrels, counterbalanced doors.
+        mounted: it is screwed to a wall, floor or sink, and need not stand by itself.
         tries: samples drawn before the rule is called impossible.
         file: where it was read, for messages.
         digest: sha256 of the rule and of the palette entries it names.
@@ -50,5 +51,6 @@ class CategoryRule:
     invariants: tuple[str, ...]
     tries: int
     held: tuple[str, ...]
+    mounted: bool
     file: str
     digest: str

@@ -6,9 +6,12 @@ from collections.abc import Iterator
 import mujoco
 import numpy as np
 
+from artgen.core.errors import RuleError
 from artgen.core.mesh import Floats
+from artgen.validate.bundle_subject import BundleSubject
 from artgen.validate.physics import compiled_spec, warnings_of
 from artgen.validate.report import Finding, Skipped
+from artgen.validate.semantics import packaged_rule
 from artgen.validate.subject import Subject
 
 SECONDS = 1.0
@@ -18,6 +21,9 @@ SECONDS = 1.0
 def stands(subject: Subject) -> Iterator[Finding | Skipped]:
     """With a free base on a plane it neither tilts nor sinks; what MuJoCo warns of is told."""
     file = subject.model_files[0]
+    if isinstance(subject, BundleSubject) and is_mounted(subject):
+        yield Skipped(name="dynamics.free", reason="its rule says that it is mounted, not set down")
+        return
     spec, base = subject.spec(file), subject.parts[0].name
     body = spec.body(base)
     if body is None or body.parent is None or body.parent.name != "world":
@@ -44,6 +50,14 @@ def stands(subject: Subject) -> Iterator[Finding | Skipped]:
                 cause=f"free on a floor for {SECONDS:g} s: {cause}",
                 remedy="author contact pieces for the feet, and check masses and their centers",
             )
+
+
+def is_mounted(subject: BundleSubject) -> bool:
+    """Whether the category's rule says so; not where there is no rule."""
+    try:
+        return packaged_rule(subject.bundle.category).mounted
+    except RuleError:
+        return False
 
 
 def let_go(model: mujoco.MjModel, base: str) -> tuple[float, float, list[str]]:

@@ -1,6 +1,7 @@
 """L5: hollows stay open to hands, and moving parts can be got at."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
@@ -8,8 +9,8 @@ from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
 from artgen.articulation.kinematics import forward_kinematics
-from artgen.articulation.states import open_state, required_state
-from artgen.articulation.types import State
+from artgen.articulation.states import open_state, required_state, travel
+from artgen.articulation.types import Joint, State
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.transform import apply
 from artgen.validate.report import Finding
@@ -87,9 +88,14 @@ def within_reach(subject: Subject) -> Iterator[Finding]:
     joints, rules = subject.joints, subject.passages
     states: list[State] = [{}, open_state(joints, rules)]
     states += [required_state(joint.name, rules) for joint in joints]
+    states += [_carriers_open(joint, joints) for joint in joints]  # A bolt in an open door's edge.
     seen: set[str] = set()
     for state in {tuple(sorted(state.items())): state for state in states}.values():
-        seen |= seen_from_outside(subject.meshes, subject, state)
+        view = View.at(subject, state)
+        seen |= view.seen(None)
+        for part in view.names:
+            if part not in seen:  # It may be smaller than rays over the whole object are apart.
+                seen |= view.seen(part) & {part}
     for joint in joints:
         if joint.child in subject.meshes and joint.child not in seen:
             yield Finding(
@@ -103,23 +109,57 @@ def within_reach(subject: Subject) -> Iterator[Finding]:
             )
 
 
-def seen_from_outside(meshes: Mapping[str, TriMesh], subject: Subject, state: State) -> set[str]:
-    """Parts that parallel rays from five sides meet first."""
-    poses = forward_kinematics(subject.parts[0].name, subject.joints, state)
-    placed = [apply(poses[name], mesh.triangles) for name, mesh in meshes.items()]
-    owner = np.repeat(np.arange(len(placed)), [len(t) for t in placed])
-    triangles = np.concatenate(placed)
-    low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
-    origins, ways = [], []
-    for way in WAYS[[0, 1, 3, 4, 5]]:  # Not from below, where it stands.
-        axis = int(np.argmax(np.abs(way)))
-        steps = (np.arange(WINDOW) + 0.5) / WINDOW
-        u, v = (k for k in range(3) if k != axis)
-        start = np.zeros((WINDOW, WINDOW, 3))
-        start[..., u] = low[u] + steps[:, None] * (high[u] - low[u])
-        start[..., v] = low[v] + steps[None, :] * (high[v] - low[v])
-        start[..., axis] = (low[axis] - 1.0) if way[axis] > 0.0 else (high[axis] + 1.0)
-        origins.append(start.reshape(-1, 3))
-        ways.append(np.tile(way, (WINDOW * WINDOW, 1)))
-    hit = _first_hits(triangles, np.concatenate(origins), np.concatenate(ways))
-    return {list(meshes)[k] for k in np.unique(owner[hit[hit >= 0]]).tolist()}
+def _carriers_open(joint: Joint, joints: Sequence[Joint]) -> State:
+    """What carries a joint wide open, itself at rest."""
+    above = {other.child: other for other in joints}
+    state: dict[str, float] = {}
+    while joint.parent in above:
+        joint = above[joint.parent]
+        state[joint.name] = travel(joint)[1]
+    return state
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class View:
+    """An object at a state, seen by parallel rays from five sides.
+
+    Attributes:
+        names: of the parts.
+        triangles: (T, 3, 3) of all parts, m.
+        owner: (T,) the part of each.
+    """
+
+    names: tuple[str, ...]
+    triangles: Floats
+    owner: NDArray[np.intp]
+
+    @classmethod
+    def at(cls, subject: Subject, state: State) -> "View":
+        """Every part where it is at a state."""
+        poses = forward_kinematics(subject.parts[0].name, subject.joints, state)
+        placed = [apply(poses[name], mesh.triangles) for name, mesh in subject.meshes.items()]
+        return cls(
+            names=tuple(subject.meshes),
+            triangles=np.concatenate(placed),
+            owner=np.repeat(np.arange(len(placed)), [len(t) for t in placed]),
+        )
+
+    def seen(self, part: str | None) -> set[str]:
+        """Parts that rays meet first, spread over the object or over one part alone."""
+        whole = self.triangles
+        shown = whole if part is None else whole[self.owner == self.names.index(part)]
+        low, high = shown.min(axis=(0, 1)), shown.max(axis=(0, 1))
+        first, last = whole.min(axis=(0, 1)) - 1.0, whole.max(axis=(0, 1)) + 1.0
+        origins, ways = [], []
+        for way in WAYS[[0, 1, 3, 4, 5]]:  # Not from below, where it stands.
+            axis = int(np.argmax(np.abs(way)))
+            steps = (np.arange(WINDOW) + 0.5) / WINDOW
+            u, v = (k for k in range(3) if k != axis)
+            start = np.zeros((WINDOW, WINDOW, 3))
+            start[..., u] = low[u] + steps[:, None] * (high[u] - low[u])
+            start[..., v] = low[v] + steps[None, :] * (high[v] - low[v])
+            start[..., axis] = first[axis] if way[axis] > 0.0 else last[axis]
+            origins.append(start.reshape(-1, 3))
+            ways.append(np.tile(way, (WINDOW * WINDOW, 1)))
+        hit = _first_hits(whole, np.concatenate(origins), np.concatenate(ways))
+        return {self.names[k] for k in np.unique(self.owner[hit[hit >= 0]]).tolist()}

@@ -5,10 +5,12 @@ a stranger's part is nobody says; it is asked for what every part of its kind of
 """
 
 import math
+import re
 from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from artgen.articulation.roles import ROLES
 from artgen.articulation.types import Joint
 from artgen.core.mesh import Floats
 from artgen.geometry.clearance import Mover, overlaps
@@ -64,9 +66,14 @@ def closed_at_rest(subject: Subject) -> Iterator[Finding]:
 
 
 def _has_closed_end(subject: Subject, joint: Joint) -> bool:
-    """Whether its role says so; of an unknown part, unless it turns both ways alike."""
+    """Whether its role says so; of a stranger's part, unless it turns both ways alike or is named
+    after what closes nothing: a backrest, an arm."""
     role = subject.roles.get(joint.child)
-    return not _rests_in_the_middle(subject, joint) if role is None else role.closes
+    if role is not None:
+        return role.closes
+    words = re.findall("[a-z]+", joint.child.lower())
+    open_ended = any(word in ROLES and not ROLES[word].closes for word in words)
+    return not open_ended and not _rests_in_the_middle(subject, joint)
 
 
 def _rests_in_the_middle(subject: Subject, joint: Joint) -> bool:

@@ -15,6 +15,8 @@ from artgen.validate.sweep import Sweep, joints_between, sweeps
 
 TOUCH = 1e-4
 """m; shallower contact than the sweep would report needs no way to be cleared."""
+POSES = 81
+"""States a joint is put to: a bolt is out of its strike plate a few degrees from rest."""
 Parts = tuple[str, str]
 
 
@@ -28,14 +30,16 @@ def found_passages(
         owners: the part of each body of the model.
     """
     movable = {j.name: j for j in joints if j.limit is not None and j.mimic is None}
+    leaders = {j.name: j.mimic.joint if j.mimic else j.name for j in joints}
     names = [base, *(joint.child for joint in joints)]
     between = {
         (names[i], names[j]): moved for (i, j), moved in joints_between(base, joints).items()
     }
     found: dict[tuple[str, str], Precondition] = {}
-    for sweep in sweeps(joints, ()):
+    for sweep in sweeps(joints, (), POSES):
         for pair in sorted(met(model, joints, sweep, owners)):
             moved = between.get(pair) or between.get(pair[::-1], ())
+            moved = tuple(leaders[name] for name in moved)
             others = [name for name in moved if name != sweep.joint and name in movable]
             if sweep.joint not in moved:
                 continue

@@ -47,8 +47,8 @@ def proven(subject: Subject) -> Iterator[Finding]:
 
 
 def proving_tasks(subject: Subject, model: mujoco.MjModel) -> Iterator[tuple[Task, Floats | None]]:
-    """Settling, and each joint pushed out of rest with half its effort, others as it needs them;
-    L4 has shown that nothing meets on these ways."""
+    """Settling, and each joint pushed out of rest with half its effort, those that it needs open
+    pushed open as well; L4 has shown that nothing meets on these ways."""
     yield Task(name="settling", start=np.zeros(model.nq), clear=True), None
     for joint in subject.joints:
         if joint.mimic is not None or not np.isfinite(joint.effort):
@@ -57,9 +57,8 @@ def proving_tasks(subject: Subject, model: mujoco.MjModel) -> Iterator[tuple[Tas
         start, force = np.zeros(model.nq), np.zeros(model.nv)
         for name, q in resolved(subject.joints, held).items():
             start[model.joint(name).id] = q
-        number = int(model.joint(joint.name).id)
-        force[number] = joint.effort / 2.0
-        task = Task(
-            name=f"pushing {joint.name}", start=start, driven=frozenset({number}), clear=True
-        )
-        yield task, force
+        pushed = [joint, *(j for j in subject.joints if j.name in held and j.mimic is None)]
+        numbers = [int(model.joint(j.name).id) for j in pushed]
+        force[numbers] = [j.effort / 2.0 if np.isfinite(j.effort) else 0.0 for j in pushed]
+        name, driven = f"pushing {joint.name}", frozenset(numbers)
+        yield Task(name=name, start=start, driven=driven, clear=True), force

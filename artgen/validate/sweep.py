@@ -52,7 +52,9 @@ class Crossing:
     overlap: Overlap
 
 
-def sweeps(joints: Sequence[Joint], preconditions: Sequence[Precondition]) -> Iterator[Sweep]:
+def sweeps(
+    joints: Sequence[Joint], preconditions: Sequence[Precondition], poses: int = POSES
+) -> Iterator[Sweep]:
     """The rest state, then each independent joint through its range.
 
     A joint with preconditions is swept twice: with the joints it requires at the required value,
@@ -66,7 +68,7 @@ def sweeps(joints: Sequence[Joint], preconditions: Sequence[Precondition]) -> It
         held = required_state(joint.name, preconditions)
         open_ = {name: _range(by_name[name])[1] for name in held}
         lower, upper = _range(joint)
-        path = np.linspace(lower, upper, POSES).tolist()
+        path = np.linspace(lower, upper, poses).tolist()
         for others in (held, open_) if open_ != held else (held,):
             yield Sweep(joint=joint.name, states=tuple({**others, joint.name: q} for q in path))
 

@@ -13,9 +13,9 @@ from artgen.geometry.solid import slab
 from artgen.validate import validate_asset
 from artgen.validate.bounds import shipped_bounds
 from artgen.validate.interior import (
+    View,
     hollow_points,
     inside_any,
-    seen_from_outside,
     within_reach,
 )
 from artgen.validate.levels import Selection
@@ -83,7 +83,7 @@ def test_a_part_that_is_walled_in_is_out_of_reach(tmp_path: Path) -> None:
     write_quick_bundle(made, tmp_path / "b")
     source = Source(format="bundle", file=tmp_path / "b" / MANIFEST, root=tmp_path / "b")
     subject = read_subject(source, shipped_bounds())
-    assert seen_from_outside(subject.meshes, subject, state) == {"base"}
+    assert View.at(subject, state).seen(None) == {"base"}
     assert {finding.part for finding in within_reach(subject)} == {"door", "drawer"}
 
 

@@ -121,7 +121,8 @@ EDITED = {
     ),
     "a frame with mass": ("structure.type", "door_handle_frame (asset.urdf)", in_urdf(heavy)),
     "a frame that turns": (
-        "inertia.mass", "door_handle (asset.urdf)", in_urdf(lambda r: found(r, JOINT).set("type", "revolute")),
+        "inertia.mass", "door_handle (asset.urdf)",
+        in_urdf(lambda r: found(r, JOINT).set("type", "revolute")),
     ),
     "missing in the MJCF": ("structure.grip", "door_handle", in_mjcf(without_site)),
     "turned in the MJCF": (
