@@ -40,7 +40,9 @@ def build(p: MicrowaveParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     looks = matched(p, surfaces)
     door = door_part(p)
     base = DraftPart(
-        name="base", label="base", bodies=(*base_bodies(p), panel_housing(p), p.panel.foil())
+        name="base",
+        label="base",
+        bodies=(*base_bodies(p), panel_housing(p), p.panel.core("panel"), p.panel.foil()),
     )
     parts = [base, door, *p.panel.parts("knob", "mark", "keycap")]
     joints = [door_joint(p, door), *p.panel.joints()]

@@ -47,7 +47,7 @@ def build(p: OvenParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     """At rest the door is shut and the racks are in; they slide out over the open door."""
     looks = matched(p, surfaces)
     door = door_part(p)
-    bodies = [*base_bodies(p), panel_housing(p), p.panel.foil()]
+    bodies = [*base_bodies(p), panel_housing(p), p.panel.core("panel"), p.panel.foil()]
     if p.is_range:
         bodies += range_bodies(p)
     parts = [DraftPart(name="base", label="base", bodies=tuple(bodies)), door]

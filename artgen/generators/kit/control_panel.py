@@ -16,7 +16,7 @@ from artgen.generators.kit.dial import Dial, DialStyle
 from artgen.generators.kit.panel_print import PanelPrint
 from artgen.generators.kit.printed import Point, plate
 from artgen.generators.kit.push_button import PushButton
-from artgen.geometry.solid import Solid
+from artgen.geometry.solid import Solid, slab
 from artgen.textures.appliance_panel import BRANDS
 
 CELLS: Mapping[str, Mapping[str, float]] = {
@@ -43,6 +43,8 @@ LEAST = 0.012
 PLATE = 0.0012
 """m; thickness of the printed foil as drawn, half of it inside the panel."""
 SUNK = 0.0006
+RECESS, RECESS_BORDER = 0.0125, 0.003
+"""m; depth of the core behind the foil, and how far the foil reaches over it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,10 +133,15 @@ class ControlPanel:
         return made
 
     def cut(self, block: Solid) -> Solid:
-        """The panel's block with room for shafts and caps."""
+        """The panel's block with a recess for its core."""
+        return block - self._recess()
+
+    def core(self, surface: str) -> Body:
+        """What fills the recess behind the foil: sharp-edged, with room for shafts and caps."""
+        solid = self._recess()
         for hole in self._holes:
-            block = block - self.plane.placed(hole)
-        return block
+            solid = solid - self.plane.placed(hole)
+        return Body(solid=solid, surface=surface, density=0.5 * ABS)
 
     def foil(self) -> Body:
         """The printed face."""
@@ -168,6 +175,10 @@ class ControlPanel:
             led=self.led,
         )
         return marks.surface("panel_print", self.plane.size, face)
+
+    def _recess(self) -> Solid:
+        (w, h), b = self.plane.size, RECESS_BORDER
+        return self.plane.placed(slab((b, b, -RECESS), (w - b, h - b, 0.0)))
 
     @cached_property
     def _holes(self) -> list[Solid]:

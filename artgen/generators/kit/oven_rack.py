@@ -107,7 +107,7 @@ class OvenRack:
         z, x, r = self.ladders.rest(self.level), self.ladders.half, self.bar
         corners = [(-x, self.front, z), (x, self.front, z), (x, self.back, z), (-x, self.back, z)]
         frame = wire(bent(corners, 0.012, closed=True), EDGE, sides=SIDES, closed=True)
-        over = 1.02 * (r + EDGE)
+        over = 0.5 * LAYER * (r + EDGE)
         bars = [
             wire(
                 [(u, self.front - EDGE, z + over), (u, self.back + EDGE, z + over)], r, sides=SIDES

@@ -48,6 +48,7 @@ def base_bodies(p: WasherParams) -> tuple[Body, ...]:
              collision=_contact(p)),
         Body(solid=works, surface="works", density=0.62 * mass / works.volume),
         _fascia(p),
+        p.panel.core("panel"),
         p.panel.foil(),
         Body(solid=worktop(half_width=p.half, front=-FASCIA + 0.002, back=p.depth, bottom=p.top,
                            top=p.height), surface="worktop", density=650.0, edge=0.002),
