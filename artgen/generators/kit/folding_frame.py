@@ -230,9 +230,11 @@ class FoldingFrame:
         ease = 0.3 * half
         section = np.array([(-half, ease), (-half + ease, 0.0), (half - ease, 0.0), (half, ease)])
         section = np.concatenate([section, (section * (1.0, -1.0) + (0.0, height))[::-1]])
+        across = np.linspace(-self.post_x, self.post_x, 8)
+        sag = bow * (1.0 - (across / self.post_x) ** 2)
         rings = [
-            np.c_[np.full(8, x), section + (bow * (1.0 - (x / self.post_x) ** 2), -height / 2.0)]
-            for x in np.linspace(-self.post_x, self.post_x, 8)
+            np.c_[np.full(8, x), section + np.array((y, -height / 2.0))]
+            for x, y in zip(across, sag, strict=True)
         ]
         solid = loft(rings)
         if self.hand_hole and height > 0.09:
