@@ -4,7 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from artgen.articulation.types import Draft, DraftPart, Joint, Latch, Limit, Precondition, Spring
+from artgen.core.conventions import GRAVITY
 from artgen.core.surface import SurfaceSpec, srgb_hex
+from artgen.generators.kit.counterbalance import weighed
 from artgen.generators.kit.printed import line, printed, words
 from artgen.generators.kit.stapler_arm import BADGE, arm
 from artgen.generators.kit.stapler_design import StaplerParams
@@ -31,7 +33,7 @@ REACH_IN = 0.7
 def build(p: StaplerParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     """At rest the arm is shut over the magazine, which its spring holds above the anvil."""
     parts = [base(p), magazine(p), arm(p), follower(p)]
-    joints = [_magazine_joint(p), _arm_joint(p), _follower_joint(p)]
+    joints = [_magazine_joint(p, parts[1:]), _arm_joint(p), _follower_joint(p)]
     if p.anvil_turns:
         parts.append(anvil_part(p))
         joints.append(_anvil_joint(p))
@@ -81,10 +83,10 @@ def _prints(p: StaplerParams, looks: Mapping[str, SurfaceSpec]) -> tuple[Surface
     return badge, scale
 
 
-def _magazine_joint(p: StaplerParams) -> Joint:
-    """Pressed down onto the anvil, or opened up to tack; its spring holds it at rest."""
-    torque = p.press_torque * p.bulk * p.mouth / -0.157
-    stiffness = torque / (8.0 * p.press)
+def _magazine_joint(p: StaplerParams, lifted: list[DraftPart]) -> Joint:
+    """Pressed down onto the anvil, or opened up to tack; its spring carries what is `lifted`."""
+    mass, center = weighed([body for part in lifted for body in part.bodies])
+    torque = p.lift * mass * GRAVITY * -float(center[1])
     return Joint(
         name="magazine_hinge",
         type="revolute",
@@ -96,7 +98,9 @@ def _magazine_joint(p: StaplerParams) -> Joint:
         friction=0.12 if p.tacks else 0.03,
         damping=0.01,
         effort=20.0,
-        spring=None if p.tacks else Spring(stiffness=stiffness, reference=-8.0 * p.press),
+        spring=None
+        if p.tacks
+        else Spring(stiffness=torque / (2.0 * p.press), reference=-2.0 * p.press),
         latch=Latch(force=0.25, reach=0.06) if p.tacks else None,
     )
 
@@ -131,7 +135,7 @@ def _follower_joint(p: StaplerParams) -> Joint:
         damping=0.5,
         effort=20.0,
         velocity=1.0,
-        spring=Spring(stiffness=25.0, reference=-0.08),
+        spring=Spring(stiffness=28.0, reference=-0.04),
     )
 
 
@@ -161,8 +165,8 @@ def _stop_joint(p: StaplerParams) -> Joint:
         child="paper_stop",
         axis=(0.0, 1.0, 0.0),
         limit=Limit(lower=0.0, upper=high - low),
-        friction=1.5,
-        damping=1.0,
+        friction=2.5,
+        damping=4.0,
         effort=20.0,
         velocity=1.0,
     )

@@ -47,7 +47,7 @@ class StaplerParams:
     follower: float
     pad: bool
     inlay: bool
-    press_torque: float
+    lift: float
     hinge_friction: float
     stop_place: float
     brand: int
