@@ -20,6 +20,8 @@ from artgen.geometry.solid import Solid, box, cylinder, prism, slab, union, upri
 SHEET = 0.003
 THIN = STEEL * 0.0007 / SHEET
 """kg/m3 of 0.7 mm sheet drawn 3 mm thick."""
+BALLAST = 18.0
+"""kg; concrete that keeps a spinning machine in its place."""
 FLAP = 0.005
 """m; thickness of the filter flap."""
 LABEL = (0.090, 0.026)
@@ -42,7 +44,7 @@ def base_bodies(p: WasherParams) -> tuple[Body, ...]:
     rooms += flap_room
     hollow = union(rooms)
     works = inner - hollow
-    mass = p.heft * p.width * p.depth * p.height * 1e3
+    mass = BALLAST + p.heft * p.width * p.depth * p.height * 1e3
     return (
         Body(solid=outer - inner - hollow, surface="cabinet", density=THIN, edge=0.002,
              collision=_contact(p)),
