@@ -99,6 +99,8 @@ ROLES: Mapping[str, Role] = {
                   sliding=(1.0, 50.0)),
     "blade": Role(meaning="cuts or strikes against another", turning=(0.005, 2.0),
                   sliding=(0.5, 30.0)),
+    "carriage": Role(meaning="runs along a rail inside: a printer's ink cartridges",
+                     sliding=(0.2, 20.0)),
     "pusher": Role(meaning="moves what is inside: a toaster's bread lift, a stapler's follower",
                    sliding=(0.5, 30.0)),
 }  # fmt: skip

@@ -140,10 +140,11 @@ def _drawn_back(solid: Solid, aim: tuple[float, float, float], by: float) -> Sol
 
 
 def _spout_part(bodies: tuple[Body, ...], path: SpoutPath) -> DraftPart:
+    x, y, z = _moved(path.end, path.aim, -0.035)
     grip = Grip(
         name="spout_grip",
         kind="handle",
-        position=_moved(path.end, path.aim, -0.035),
+        position=(x, y - path.radius, z),
         outward=(0.0, -1.0, 0.0),
         pull=(1.0, 0.0, 0.0),
     )
