@@ -25,6 +25,26 @@ def test_files_and_functions_stay_small_and_speak(path: Path) -> None:
             assert (node.end_lineno or 0) - node.lineno < 60, node.name
 
 
+CATEGORIES = sorted(
+    path.stem
+    for path in (ROOT / "category_rules").glob("*.toml")
+    if not path.stem.startswith("_surfaces")
+)
+
+
+@pytest.mark.parametrize("category", CATEGORIES)
+def test_a_rule_and_its_builder_are_small(category: str) -> None:
+    """What is long, or could serve another category, lies in the kit."""
+    rule = ROOT / "category_rules" / f"{category}.toml"
+    builder = ROOT / "artgen" / "generators" / f"{category}.py"
+    assert rule.read_text().count("\n") + builder.read_text().count("\n") <= 250
+
+
+def test_generators_are_builders_and_their_kit() -> None:
+    builders = {path.stem for path in (ROOT / "artgen" / "generators").glob("*.py")}
+    assert builders - {"__init__"} == set(CATEGORIES)
+
+
 def test_nothing_large_or_foreign_is_tracked() -> None:
     listed = subprocess.run(
         ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True

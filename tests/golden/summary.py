@@ -31,5 +31,6 @@ def _part(part: Part) -> Mapping[str, object]:
         "collision": len(part.collision),
         "mass": float(f"{part.mass.mass:.9g}"),
         "bounds": plain(part.mesh.bounds),
+        "grips": plain(part.grips),
         "vertices": hashlib.sha256(np.ascontiguousarray(part.mesh.vertices).tobytes()).hexdigest(),
     }

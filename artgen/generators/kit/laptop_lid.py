@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from artgen.articulation.types import Body, Decal, DraftPart
+from artgen.articulation.types import Body, Decal, DraftPart, Grip
 from artgen.core.mesh import Floats
 from artgen.generators.kit.density import ABS, ALUMINIUM, GLASS, RUBBER
+from artgen.generators.kit.laptop_layout import PLAY, Layout
 from artgen.generators.kit.lofted_shell import cover, plan
-from artgen.generators.laptop_layout import PLAY, Layout
 from artgen.geometry.profile import circle, regular_polygon, rounded_rectangle
 from artgen.geometry.solid import Solid, prism, slab, union
 
@@ -26,7 +26,14 @@ def lid(at: Layout) -> DraftPart:
     bodies = [_cover(at), *_picture(at), *_seal(at), *_barrels(at), *_ledge(at), _webcam(at)]
     if at.p.logo != "none":
         bodies.append(_logo(at))
-    return DraftPart(name="lid", label="lid", bodies=tuple(bodies))
+    front = Grip(
+        name="lid_edge",
+        kind="edge",
+        position=(0.0, 0.0, (at.lid_z[0] + at.lid_z[1]) / 2.0),
+        outward=(0.0, -1.0, 0.0),
+        pull=(0.0, 0.0, 1.0),
+    )
+    return DraftPart(name="lid", label="lid", bodies=tuple(bodies), grips=(front,))
 
 
 def _cover(at: Layout) -> Body:

@@ -1,8 +1,7 @@
 """The door of a dishwasher: liner, dispenser, outer panel, controls, handle."""
 
-from artgen.articulation.types import Body, DraftPart
+from artgen.articulation.types import Body, DraftPart, Grip
 from artgen.core.surface import SurfaceSpec
-from artgen.generators.dishwasher_layout import DishwasherParams, Layout
 from artgen.generators.kit.appliance_handle import bar_handle, grip_groove, pocket_room
 from artgen.generators.kit.control_console import (
     ConsoleStyle,
@@ -18,6 +17,7 @@ from artgen.generators.kit.density import (
     STAINLESS,
     STEEL,
 )
+from artgen.generators.kit.dishwasher_layout import DishwasherParams, Layout
 from artgen.generators.kit.drop_door import (
     DropDoor,
     detergent_dispenser,
@@ -75,7 +75,17 @@ def door(
         *fittings,
         *_inside(p, at, dish),
     )
-    return DraftPart(name="door", label="door", bodies=bodies), own
+    return DraftPart(name="door", label="door", bodies=bodies, grips=(_hold(p, at),)), own
+
+
+def _hold(p: DishwasherParams, at: Layout) -> Grip:
+    """The middle of the bar, or the edge that fingers hook under in a pocket or groove."""
+    out, below, y = (0.0, -1.0, 0.0), at.fascia_bottom, at.door.outer
+    if p.handle in ("bar", "flat_bar"):
+        place = (0.0, y - 0.030 - p.handle_size / 2.0, below - 0.060)
+        return Grip(name="door_handle", kind="handle", position=place, outward=out, pull=out)
+    place = (0.0, y, below - (0.018 if p.handle == "pocket" else 0.0))
+    return Grip(name="door_handle", kind="edge", position=place, outward=out, pull=out)
 
 
 def _less(solid: Solid, cuts: tuple[Solid, ...]) -> Solid:

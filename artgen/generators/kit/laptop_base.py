@@ -6,9 +6,7 @@ from artgen.articulation.types import Body, DraftPart
 from artgen.generators.kit.barrel import free_spans, pockets
 from artgen.generators.kit.density import ABS, ALUMINIUM, RUBBER, STEEL
 from artgen.generators.kit.keyboard import keycaps
-from artgen.generators.kit.lofted_shell import tray
-from artgen.generators.kit.side_port import SOCKETS, fitting, side_port
-from artgen.generators.laptop_layout import (
+from artgen.generators.kit.laptop_layout import (
     DECK,
     KEY_SINK,
     PLAY,
@@ -16,6 +14,8 @@ from artgen.generators.laptop_layout import (
     Layout,
     Rect,
 )
+from artgen.generators.kit.lofted_shell import tray
+from artgen.generators.kit.side_port import SOCKETS, fitting, side_port
 from artgen.geometry.profile import circle, rounded_rectangle
 from artgen.geometry.solid import Solid, cylinder, prism, slab, union
 

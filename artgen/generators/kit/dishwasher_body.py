@@ -2,8 +2,6 @@
 
 from artgen.articulation.types import Body, DraftPart
 from artgen.core.surface import SurfaceSpec
-from artgen.generators.dishwasher_layout import SEAL, DishwasherParams, Layout
-from artgen.generators.dishwasher_racks import side_rails, tray_basket, upper_basket
 from artgen.generators.kit.appliance_cabinet import (
     SHEET,
     cabinet_collision,
@@ -14,6 +12,8 @@ from artgen.generators.kit.appliance_cabinet import (
     worktop,
 )
 from artgen.generators.kit.density import ABS, POLYPROPYLENE, STAINLESS, STEEL
+from artgen.generators.kit.dishwasher_layout import SEAL, DishwasherParams, Layout
+from artgen.generators.kit.dishwasher_racks import side_rails, tray_basket, upper_basket
 from artgen.generators.kit.drop_door import hinge_ears
 from artgen.generators.kit.gasket import opening_gasket
 from artgen.generators.kit.spray_arm import spray_arm, swept_collision

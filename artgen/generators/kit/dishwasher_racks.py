@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from artgen.articulation.types import Body, DraftPart
-from artgen.generators.dishwasher_layout import RACK_GAP, DishwasherParams, Layout
+from artgen.articulation.types import Body, DraftPart, Grip
 from artgen.generators.kit.cutlery_basket import cup_shelf, cutlery_basket, cutlery_comb
 from artgen.generators.kit.density import ABS, POLYPROPYLENE
+from artgen.generators.kit.dishwasher_layout import RACK_GAP, DishwasherParams, Layout
 from artgen.generators.kit.rack_wheel import rack_wheel
 from artgen.generators.kit.wire_rack import WireBasket, basket_collision, basket_wires, tines
 from artgen.geometry.solid import Solid, slab, union
@@ -80,7 +80,9 @@ def lower_rack(p: DishwasherParams, at: Layout) -> DraftPart:
     bodies.append(_grip(basket))
     if p.cutlery != "tray":
         bodies.append(_plastic([_cutlery(p, basket)], "rack_plastic", POLYPROPYLENE))
-    return DraftPart(name="lower_rack", label="rack", bodies=tuple(bodies))
+    return DraftPart(
+        name="lower_rack", label="rack", bodies=tuple(bodies), grips=_holds("lower_rack", basket)
+    )
 
 
 def _wired(wires: list[Solid], surface: str, basket: WireBasket) -> Body:
@@ -155,6 +157,14 @@ def _grip(basket: WireBasket) -> Body:
     return Body(solid=solid, surface="rack_plastic", density=ABS, edge=0.0022)
 
 
+def _holds(name: str, basket: WireBasket) -> tuple[Grip, ...]:
+    """The clip on the front rim, taken from the front."""
+    out = (0.0, -1.0, 0.0)
+    front = basket.front - 1.6 * basket.radius - 0.0035
+    place = (0.0, front, basket.rim_front - 0.010)
+    return (Grip(name=f"{name}_rim", kind="rim", position=place, outward=out, pull=out),)
+
+
 def upper_rack(p: DishwasherParams, at: Layout) -> DraftPart:
     """The rack on rails: pins for cups, cup shelves, the feed pipe of the spray arm below it."""
     basket = upper_basket(p, at)
@@ -168,7 +178,9 @@ def upper_rack(p: DishwasherParams, at: Layout) -> DraftPart:
         _plastic(plastic, "rack_plastic", POLYPROPYLENE),
         _grip(basket),
     )
-    return DraftPart(name="upper_rack", label="rack", bodies=bodies)
+    return DraftPart(
+        name="upper_rack", label="rack", bodies=bodies, grips=_holds("upper_rack", basket)
+    )
 
 
 def rail_height(basket: WireBasket) -> float:
@@ -221,7 +233,9 @@ def cutlery_tray(p: DishwasherParams, at: Layout) -> DraftPart:
         _plastic([*_rail_bars(at, basket, rail_height(basket)), *combs], "rack_plastic"),
         _grip(basket),
     )
-    return DraftPart(name="cutlery_tray", label="tray", bodies=bodies)
+    return DraftPart(
+        name="cutlery_tray", label="tray", bodies=bodies, grips=_holds("cutlery_tray", basket)
+    )
 
 
 def side_rails(at: Layout, basket: WireBasket) -> list[Solid]:
