@@ -23,7 +23,7 @@ from artgen.generators.kit.printed import plate, printed, words
 from artgen.generators.kit.suitcase_params import SuitcaseParams
 from artgen.generators.kit.telescope import Telescope, pocket, pocket_room
 
-SHELL_DENSITY = {"zip": 560.0, "frame": 700.0}
+SHELL_DENSITY = {"zip": 560.0, "frame": 640.0}
 """kg/m3; the shell is drawn 3.2 mm thick where 1.6 mm of polycarbonate are enough."""
 BRANDS = ("VOYANT", "ALTUR", "Nordvik", "KESTRA", "Halden", "PORTANE")
 """Invented."""
