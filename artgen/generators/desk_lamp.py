@@ -50,7 +50,8 @@ def _chain(p: DeskLampParams) -> tuple[DraftPart, DraftPart, DraftPart, DraftPar
     metal = Stock(surface="metal", density=STEEL, edge=0.0)
     knob = Stock(surface="knob", density=ABS, edge=0.0)
     cable = Stock(surface="rubber", density=RUBBER, edge=0.0)
-    shade = Stock(surface="shade" if p.two_tone else "coat", density=0.8 * ALUMINIUM, edge=0.0)
+    hollow = 0.35 if p.head == "bar" else 0.8
+    shade = Stock(surface="shade" if p.two_tone else "coat", density=hollow * ALUMINIUM, edge=0.0)
     inner = Stock(surface="lining", density=ALUMINIUM, edge=0.0)
     glow = Stock(surface="light", density=0.25 * GLASS, edge=0.0)
     side = 1.0 if p.knob_left else -1.0

@@ -12,6 +12,10 @@ from artgen.generators.kit.lamp_head import HeadStyle, LampHead
 from artgen.generators.kit.spring_balance import leaning
 
 Point = tuple[float, float]
+SOCKET = 0.0235
+"""m; radius of a socket's cover."""
+ARM_HALF = 0.0115
+"""m; half the thickness of an arm near the head."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,6 +133,18 @@ def shades_suit_arms(p: DeskLampParams) -> bool:
     return (p.arm == "flat") == (p.head == "bar") or p.arm == "tube"
 
 
+def head_clears_a_rising_arm(p: DeskLampParams) -> bool:
+    """Where the upper arm rises to the head, the neck keeps the head below it."""
+    rise = math.radians(max(-p.dip_deg, 0.0))
+    reach = p.bar_width if p.head == "bar" else SOCKET
+    return reach * math.tan(rise) + ARM_HALF / math.cos(rise) + 0.002 < p.neck
+
+
+def elbow_stays_open(p: DeskLampParams) -> bool:
+    """At rest the arms enclose at least 70 degrees."""
+    return p.back_deg + p.dip_deg < 20.0
+
+
 def it_cannot_tip(p: DeskLampParams) -> bool:
     """The plate reaches far enough under the head."""
     return -p.wrist[0] < 3.4 * p.base.half_depth
@@ -140,6 +156,8 @@ INVARIANTS: Mapping[str, Callable[[DeskLampParams], bool]] = {
         head_hangs_above_the_plate,
         head_stays_before_the_arm,
         shades_suit_arms,
+        head_clears_a_rising_arm,
+        elbow_stays_open,
         it_cannot_tip,
     )
 }

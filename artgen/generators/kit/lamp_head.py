@@ -63,7 +63,7 @@ class LampHead:
         knuckle = slab((-0.016, -0.012, low + thick - 0.001), (0.016, 0.012, -self.neck + 0.006))
         touch = slab((-self.radius, -self.depth, low), (self.radius, self.depth, low + thick))
         return [
-            shade.piece(union([self._tongue(), case, knuckle]), contact=(touch,)),
+            shade.piece(union([self._tongue(), case, knuckle]) - diffuser, contact=(touch,)),
             glow.piece(diffuser),
         ]
 
@@ -103,8 +103,8 @@ class LampHead:
             shade.piece(union([self._tongue(), cover]), contact=boxes),
             shade.piece(shell, contact=self._wedges(profile)),
             inner.piece(lining),
-            metal.piece(cylinder(0.0135, 0.012, segments=18).at(z=top - 0.012)),
-            glow.piece(self._bulb(bulb_low, top - 0.010)),
+            metal.piece(cylinder(0.0135, 0.012, segments=18).at(z=top - 0.014)),
+            glow.piece(self._bulb(bulb_low, top - 0.014)),
         ]
 
     def _cover(self, top: float) -> Solid:

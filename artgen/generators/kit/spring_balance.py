@@ -13,7 +13,7 @@ from artgen.generators.kit.counterbalance import weighed
 
 SOFTEST = 0.02
 """N m/rad; where the load asks for a spring that weakens as it is stretched less."""
-MARGIN = 1.5
+MARGIN = 1.8
 """How much more friction there is than what the spring leaves."""
 
 
