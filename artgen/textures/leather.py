@@ -14,10 +14,8 @@ def leather(spec: SurfaceSpec) -> TextureSet:
     """Creases where two swells balance; the crests are worn smoother than the creases."""
     rng = Stream(1, "leather").generator()
     creases = [smooth(rng, (cells, cells), SHAPE) for cells in (10, 14)]
-    height = 1.0
-    for field in creases:
-        height = height * smoothstep(0.0, 0.45, abs(field))
-    height = height + 0.15 * smooth(rng, (64, 64), SHAPE)
+    broad, fine = (smoothstep(0.0, 0.45, abs(field)) for field in creases)
+    height = broad * fine + 0.15 * smooth(rng, (64, 64), SHAPE)
     level = (smoothstep(0.0, 1.0, height) * STEPS + 0.5) // 1 / STEPS
     rough = spec.roughness + 0.10 * (0.6 - level)
     return TextureSet(

@@ -1,6 +1,7 @@
 """Woven upholstery: warp over weft in turn, with the heather of melange yarns."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from artgen.core.mesh import Floats
 from artgen.core.stream import Stream
@@ -41,7 +42,8 @@ def _threads() -> tuple[Floats, Floats]:
     return warp * crest[:, None], warp.T * crest[None, :]
 
 
-def _checker() -> np.ndarray:
+def _checker() -> NDArray[np.bool_]:
+    """Where the warp lies over the weft."""
     cell = np.arange(THREADS * TEXELS) // TEXELS
     return np.asarray((cell[:, None] + cell[None, :]) % 2 == 0)
 

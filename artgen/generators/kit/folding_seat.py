@@ -1,5 +1,6 @@
 """Seats of folding chairs: rails with pins, and slats, a panel, a pad or molded plastic on them."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -54,13 +55,13 @@ class FoldingSeat:
         self, rail: Stock, board: Stock, soft: Stock, cord: Stock, metal: Stock
     ) -> list[Body]:
         """Rails, pins and seat."""
-        make = {
+        make: Mapping[SeatKind, Callable[[], list[Body]]] = {
             "slats": lambda: self._slats(board),
             "panel": lambda: [self._panel(board, 0.010)],
             "plastic": lambda: [self._panel(board, 0.014)],
             "padded": lambda: [self._panel(board, 0.010), *self._cushion(soft, cord)],
-        }[self.kind]
-        return [*self._rails(rail), *make(), metal.piece(self._pins())]
+        }
+        return [*self._rails(rail), *make[self.kind](), metal.piece(self._pins())]
 
     def _rails(self, stock: Stock) -> list[Body]:
         z, half = self.frame.linkage.height, self.frame.seat_half

@@ -107,10 +107,10 @@ class OfficeSeat:
                           (x + 0.01, 0.002, self.pan - 0.006))  # fmt: skip
             solid = solid - (pocket if side > 0 else pocket.mirrored("x"))
         low, high = self.base + 0.004, self.pan
-        side = slab((CORE, y + 0.006, low), (x - POCKET - 0.010, BACK - 0.004, high))
+        flank = slab((CORE, y + 0.006, low), (x - POCKET - 0.010, BACK - 0.004, high))
         front = slab((-CORE, y + 0.006, low), (CORE, -CORE, high))
         rear = slab((-CORE, CORE, low), (CORE, BACK - 0.004, high))
-        return steel.piece(solid, contact=(side, side.mirrored("x"), front, rear))
+        return steel.piece(solid, contact=(flank, flank.mirrored("x"), front, rear))
 
     def _pan(self, shell: Stock) -> Body:
         outline = self._outline(0.030)
