@@ -13,7 +13,7 @@ from artgen.geometry.solid import Solid, cylinder, hull, revolve, slab, union
 SHEET = 0.003
 """m; drum wall as drawn; its density is scaled to 0.5 mm."""
 REAR = 0.006
-CONTACT = 7
+CONTACT = 5
 """Boxes of a quarter of the drum's wall."""
 FIRST = 0.5
 """rad; of the first paddle from upright."""
@@ -133,8 +133,8 @@ class WashDrum:
             z = middle * (math.sin(low) + math.sin(high)) / 2.0
             scale = middle / math.hypot(x, z) * (1.0 - 0.004 / middle)
             half = 0.0052
-            span = (max(half, 0.30 * middle * (math.cos(low) - math.cos(high))),
-                    max(half, 0.30 * middle * (math.sin(high) - math.sin(low))))  # fmt: skip
+            span = (max(half, 0.26 * middle * (math.cos(low) - math.cos(high))),
+                    max(half, 0.26 * middle * (math.sin(high) - math.sin(low))))  # fmt: skip
             if span[0] > half and span[1] > half:
                 span = (half, half)
             quarter.append((x * scale, z * scale, *span))

@@ -205,7 +205,7 @@ def _contact(p: WasherParams) -> tuple[Solid, ...]:
             slab((x + s + 0.001, 0.0, z - 0.001), (a, FLAP + 0.020, z + s + 0.001)),
             slab((-a, 0.0, z + s + 0.001), (a, FLAP + 0.020, floor)),
         ]
-    edges = np.linspace(-hole, hole, 9)
+    edges = np.linspace(-hole, hole, 7)
     for below, above in pairwise(edges.tolist()):
         near = 0.0 if below < 0.0 < above else min(abs(below), abs(above))
         x = math.sqrt(hole * hole - near * near)
