@@ -1,5 +1,7 @@
 """`artgen study coverage`."""
 
+import inspect
+import json
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -9,12 +11,13 @@ from pathlib import Path
 import tyro
 
 from artgen.core.errors import ArtgenError, UsageError
-from artgen.core.jsonio import write_bytes
+from artgen.core.jsonio import content_hash, file_hash, plain, write_bytes, write_json
 from artgen.coverage_study.drawn import Drawn, DrawTask, draw_all
-from artgen.coverage_study.neighbours import Neighbour, neighbours
+from artgen.coverage_study.neighbours import neighbours
 from artgen.coverage_study.page import page
 from artgen.coverage_study.plots import write_histograms
-from artgen.coverage_study.rows import Coverage, ParameterRow, coverage, parameter_rows
+from artgen.coverage_study.rows import CategoryCoverage, coverage, from_json, parameter_rows
+from artgen.generators import load_builder
 from artgen.pool import run_in_processes
 from artgen.progress import progress
 from artgen.rules import load_rule, rule_names
@@ -39,6 +42,9 @@ class Study:
     out: Path = Path("docs/studies")
     """Receives coverage.md, coverage.csv, coverage_parameters.csv, coverage_neighbours.csv and
     coverage/<category>.png."""
+    kept: Path = Path("out/coverage")
+    """Keeps what was drawn of each category, so that another run draws only those whose rule or
+    builder changed; remove it after changing pieces that builders share."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side."""
 
@@ -49,25 +55,41 @@ def study(argv: Sequence[str]) -> int:
     if command.count < 2:
         raise UsageError(f"--count {command.count}: expected at least 2, to have neighbors")
     names = command.categories or tuple(rule_names())
-    rows: list[Coverage] = []
-    parameters: list[ParameterRow] = []
-    nearest: list[Neighbour] = []
+    found = []
     with progress("categories", len(names)) as advance:
         for name in names:
-            objects = drawn_objects(name, command)
-            rule, own = load_rule(name), neighbours(objects)
-            rows.append(coverage(rule, objects, own))
-            parameters += parameter_rows(rule, objects)
-            nearest += own
-            write_histograms(command.out / f"coverage/{name}.png", rule, objects, own)
+            found.append(category_coverage(name, command))
             advance(name)
+    rows = [own.row for own in found]
+    nearest = [n for own in found for n in own.nearest]
     write_table(command.out / "coverage.csv", rows)
-    write_table(command.out / "coverage_parameters.csv", parameters)
+    write_table(command.out / "coverage_parameters.csv", [p for f in found for p in f.parameters])
     write_table(command.out / "coverage_neighbours.csv", nearest)
     text = page(rows, nearest, seed=command.seed)
     write_bytes(command.out / "coverage.md", text.encode())
     print(f"page: {command.out / 'coverage.md'}")  # noqa: T201
     return 0
+
+
+def category_coverage(name: str, command: Study) -> CategoryCoverage:
+    """What one category makes, drawn now or kept from an earlier run of the same rule and builder;
+    writes its histograms when drawn."""
+    rule = load_rule(name)
+    builder = file_hash(Path(str(inspect.getsourcefile(load_builder(name).build))))
+    key = content_hash([rule.digest, builder, command.seed, command.count])
+    place = command.kept / f"{name}-{key[:16]}.json"
+    if place.exists():
+        return from_json(json.loads(place.read_text(encoding="utf-8")))
+    objects = drawn_objects(name, command)
+    own = neighbours(objects)
+    made = CategoryCoverage(
+        row=coverage(rule, objects, own),
+        parameters=tuple(parameter_rows(rule, objects)),
+        nearest=tuple(own),
+    )
+    write_histograms(command.out / f"coverage/{name}.png", rule, objects, own)
+    write_json(place, plain(made))
+    return made
 
 
 def drawn_objects(name: str, command: Study) -> list[Drawn]:

@@ -1,8 +1,9 @@
 """The tables of `artgen study coverage`."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -61,6 +62,24 @@ class ParameterRow:
     rule: str
     found: str
     unused: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class CategoryCoverage:
+    """All that is told of one category."""
+
+    row: Coverage
+    parameters: tuple[ParameterRow, ...]
+    nearest: tuple[Neighbour, ...]
+
+
+def from_json(data: Mapping[str, Any]) -> CategoryCoverage:
+    """What `plain` made of one."""
+    return CategoryCoverage(
+        row=Coverage(**data["row"]),
+        parameters=tuple(ParameterRow(**entry) for entry in data["parameters"]),
+        nearest=tuple(Neighbour(**entry) for entry in data["nearest"]),
+    )
 
 
 def coverage(

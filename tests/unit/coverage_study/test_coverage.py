@@ -94,7 +94,14 @@ def test_a_drawing_depends_on_its_address_alone() -> None:
 
 def test_the_study_writes_its_tables_and_pictures(tmp_path: Path) -> None:
     words = ["--categories", "cabinet", "--count", "3", "--workers", "1", "--out", str(tmp_path)]
+    words += ["--kept", str(tmp_path / "kept")]
     assert study(words) == 0
+    first = (tmp_path / "coverage.md").read_bytes()
+    (tmp_path / "coverage/cabinet.png").rename(tmp_path / "moved.png")
+    assert study(words) == 0  # Nothing is drawn again.
+    assert (tmp_path / "coverage.md").read_bytes() == first
+    assert not (tmp_path / "coverage/cabinet.png").exists()
+    (tmp_path / "moved.png").rename(tmp_path / "coverage/cabinet.png")
     (row,) = read_table(tmp_path / "coverage.csv", Coverage)
     assert (row.category, row.objects, row.twins) == ("cabinet", 3, 0)
     parameters = read_table(tmp_path / "coverage_parameters.csv", ParameterRow)
