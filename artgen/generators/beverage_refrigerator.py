@@ -27,7 +27,11 @@ INKS = (("#b3161c", "#fbf7ee"), ("#0e4c92", "#f2f4f6"), ("#f1e6c8", "#2b2119"),
 def build(p: BeverageParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     """At rest the doors are shut; shelves slide out behind an open door."""
     base = _base_bodies(p)
-    doors, hinges, shelves, slides, rules = [], [], [], [], []
+    doors: list[DraftPart] = []
+    shelves: list[DraftPart] = []
+    hinges: list[Joint] = []
+    slides: list[Joint] = []
+    rules: list[Precondition] = []
     for number, (leaf, (_, room)) in enumerate(zip(p.leaves, p.rooms, strict=True)):
         base += leaf.hinge_plates("metal")
         works = p.glazed(leaf)

@@ -170,7 +170,8 @@ class ColdCase:
             side = wide if k % 2 else -wide
             points += [(side, y, float(z)), (-side, y, float(z))]
         tube = wire(bent(points, 0.012), 0.0028, sides=5)
-        rungs = [slab((x - 0.001, self.depth - 0.001, low - 0.01), (x + 0.001, y - 0.002, high + 0.01))
+        start, end = self.depth - 0.001, y - 0.002
+        rungs = [slab((x - 0.001, start, low - 0.01), (x + 0.001, end, high + 0.01))
                  for x in np.linspace(-0.8 * wide, 0.8 * wide, 4)]  # fmt: skip
         return [Body(solid=union([tube, *rungs]), surface=surface, density=STEEL)]
 

@@ -151,6 +151,18 @@ class ColdLeaf:
             bodies.append(self.carried(body))
         return bodies
 
+    def hinge_cap(self, surface: str, *, top: float) -> list[Body]:
+        """A cover over the upper hinge on a case that ends at z = `top`; none on lower leaves."""
+        over = top - self.corner[2]
+        if self.length < over - 0.02:
+            return []
+        x, y = self.pin
+        low, high = (x - 0.010, y - 0.006, over - 0.0035), (x + 0.075, 0.085, over + 0.016)
+        upper = slab((*low[:2], over + 0.001), high)
+        cap = Body(solid=slab(low, high), surface=surface, density=500.0, edge=0.005,
+                   collision=(upper,))  # fmt: skip
+        return [self.carried(cap)]
+
     def swung(self, x: float, y: float, angle: float) -> tuple[float, float]:
         """Where a drawn point is after the door has turned by `angle` rad."""
         dx, dy = x - self.pin[0], y - self.pin[1]

@@ -63,9 +63,7 @@ class FlatShelf:
             slab((walls[1] - wide, self.front + 0.02, high - tall),
                  (walls[1] + 0.001, self.back, high)),
         ]  # fmt: skip
-        return tuple(
-            Body(solid=piece, surface=surface, density=ABS, collision=(piece,)) for piece in pieces
-        )
+        return tuple(Body(solid=piece, surface=surface, density=ABS) for piece in pieces)
 
     def grip(self, name: str) -> Grip:
         """Its front edge."""
