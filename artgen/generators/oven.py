@@ -33,9 +33,8 @@ from artgen.generators.kit.window_leaf import inner_frame, panes, skin
 PARAMS = OvenParams
 SKIN, FRAME = 1150.0, 260.0
 """kg/m3; glass or sheet with its stiffeners, and the hollow inner frame with a third pane."""
-BEAD = 0.002
-HANDLE_INSET = 0.042
-"""m; from the door's upper edge to the handle's axis."""
+BEAD, HANDLE_INSET = 0.002, 0.042
+"""m; depth of the groove around the window; from the door's upper edge to the handle's axis."""
 DOOR_HOLD, DOOR_LIMIT = 1.12, 4.9
 """Friction over the torque that the spring leaves, and the most that people accept, N m."""
 UPPER = math.radians(89.5)
@@ -63,6 +62,7 @@ def build(p: OvenParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
         part, joint = range_drawer(
             drawer_room(p), half=p.half, face=p.face, low=p.sill + 0.004,
             high=p.sill + p.drawer_height, seam=GAP,
+            reach=p.leaf.width - HANDLE_INSET - p.door - p.handle_radius - 0.02,
         )  # fmt: skip
         parts.append(part)
         joints.append(joint)

@@ -15,9 +15,17 @@ LIFT = 0.0065
 
 
 def range_drawer(
-    room: LinedCavity, *, half: float, face: float, low: float, high: float, seam: float
+    room: LinedCavity,
+    *,
+    half: float,
+    face: float,
+    low: float,
+    high: float,
+    seam: float,
+    reach: float,
 ) -> tuple[DraftPart, Joint]:
-    """A drawer in `room` whose front spans +-half and `low` to `high`, from y = face to -seam."""
+    """A drawer in `room` whose front spans +-half and `low` to `high`, from y = face to -seam; it
+    comes out by `reach` at most, behind the handle of an open door above it."""
     (x0, y0, z0), (_, y1, z1) = room.low, room.high
     x = -x0 - CLEAR
     bottom, top, back = z0 + LIFT, z0 + 0.72 * (z1 - z0), y1 - CLEAR
@@ -45,7 +53,7 @@ def range_drawer(
                 outward=out, pull=out)  # fmt: skip
     joint = Joint(
         name="drawer_slide", type="prismatic", parent="base", child="drawer", axis=out,
-        limit=Limit(lower=0.0, upper=round(0.7 * (back - y0), 3)), friction=8.0, damping=6.0,
-        effort=100.0, velocity=1.0,
+        limit=Limit(lower=0.0, upper=round(min(reach, 0.7 * (back - y0)), 3)),
+        friction=8.0, damping=6.0, effort=100.0, velocity=1.0,
     )  # fmt: skip
     return DraftPart(name="drawer", label="drawer", bodies=bodies, grips=(grip,)), joint
