@@ -81,18 +81,15 @@ class SashMaker:
         return [*self._panes(light, middle), *seals, *beads, *self._bars(light, y0, y1)]
 
     def _panes(self, light: Rect, middle: float) -> list[Body]:
+        """One pane; an insulating unit is a block of its thickness with the spacer let in, so that
+        light crosses two faces, and weighs as its two sheets of 4 mm."""
         half = self.unit / 2.0
         whole = _plate(light, middle - half, middle + half)
         if self.unit < 0.010:
             return [self.pane.piece(whole, contact=(whole,))]
-        near = _plate(light, middle - half, middle - half + 0.004)
-        far = _plate(light, middle + half - 0.004, middle + half)
-        spacer = _ring(light, BEAD - 0.001, middle - half + 0.004, middle + half - 0.004)
-        return [
-            self.pane.piece(near, contact=(whole,)),
-            self.pane.piece(far),
-            self.spacer.piece(spacer),
-        ]
+        unit = replace(self.pane, density=self.pane.density * 0.008 / self.unit)
+        spacer = _ring(light, BEAD + 0.006, middle - half + 0.004, middle + half - 0.004)
+        return [unit.piece(whole, contact=(whole,)), self.spacer.piece(spacer)]
 
     def _bars(self, light: Rect, y0: float, y1: float) -> list[Body]:
         """On both faces of the glass, as they are glued on."""

@@ -14,7 +14,9 @@ from artgen.articulation.types import (
     Spring,
     Vector,
 )
+from artgen.core.conventions import GRAVITY
 from artgen.generators.kit.board import Stock
+from artgen.generators.kit.counterbalance import counterbalance, weighed
 from artgen.generators.kit.door_leaf import pierced
 from artgen.generators.kit.flush_pull import FlushPull
 from artgen.generators.kit.front_layout import Rect
@@ -112,6 +114,11 @@ def swinging_sash(
         base.append(fit.metal.piece(_laid(fixed, tilts).at(*where)))
     axis: Vector = (1.0, 0.0, 0.0) if tilts else (0.0, 0.0, -1.0)
     origin = (0.0, y, rect.z0 - OUT) if tilts else (rect.x0 - OUT, y, 0.0)
+    parts = (*bodies, *pins, *extras)
+    friction, spring = fit.swinging, None
+    if tilts:  # Sprung stays hold it at every angle, its handle too.
+        spring, left = counterbalance(parts, pivot=origin, upper=opening)
+        friction = max(friction, 1.5 * left + 0.9)
     swing = Joint(
         name=f"{name}_tilt" if tilts else f"{name}_swing",
         type="revolute",
@@ -120,11 +127,12 @@ def swinging_sash(
         axis=axis,
         origin=origin,
         limit=Limit(lower=0.0, upper=opening),
-        friction=fit.swinging,
+        friction=friction,
         damping=0.3,
         effort=60.0,
+        spring=spring,
     )
-    sash = DraftPart(name=name, label="sash", bodies=(*bodies, *pins, *extras))
+    sash = DraftPart(name=name, label="sash", bodies=parts)
     alone = Sashes(parts=(sash,), joints=(swing,), base=tuple(base))
     if not handle:
         return alone
@@ -256,7 +264,7 @@ def hung_sashes(
     rail = Grip(
         name="sash_upper_rail",
         kind="edge",
-        position=(0.3 * o.width, outer, high.z0 + maker.member),
+        position=(0.3 * o.width, outer, high.z1 - half),
         outward=(0.0, -1.0, 0.0),
         pull=(0.0, 0.0, -1.0),
     )
@@ -320,7 +328,7 @@ BALANCE = 4.0
 
 def _slide(sash: DraftPart, axis: Vector, travel: float, friction: float) -> Joint:
     """Along the face; one that rises or falls is carried by balances."""
-    weight = 9.81 * sum(body.density * body.solid.volume for body in sash.bodies)
+    weight = GRAVITY * weighed(sash.bodies)[0]
     spring = Spring(stiffness=BALANCE, reference=axis[2] * weight / BALANCE) if axis[2] else None
     return Joint(
         name=f"{sash.name}_slide",
