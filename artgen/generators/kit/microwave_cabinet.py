@@ -9,13 +9,13 @@ from artgen.core.surface import SurfaceSpec, srgb_hex
 from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.cord import cord_stub
 from artgen.generators.kit.density import ABS, GLASS, POLYPROPYLENE, RUBBER, STEEL
-from artgen.generators.kit.microwave_design import SCOOP, MicrowaveParams
+from artgen.generators.kit.microwave_design import FLANGE, LINER, SCOOP, MicrowaveParams
 from artgen.generators.kit.printed import disc, plate, printed, words
 from artgen.geometry.profile import rounded_rectangle
-from artgen.geometry.solid import Solid, box, cylinder, hull, prism, slab, union, upright
+from artgen.geometry.solid import Solid, box, cylinder, hull, prism, slab, union
 
-SHEET, LINER, FLANGE = 0.003, 0.0025, 0.004
-"""m; cover, lining and front flange as drawn; their densities are scaled to 0.6 mm of steel."""
+SHEET = 0.003
+"""m; cover as drawn; its density is scaled to 0.6 mm of steel."""
 THIN = STEEL * 0.0006
 HOOK = 0.011
 """m; how far the door's hooks reach into the flange."""
@@ -31,7 +31,7 @@ def base_bodies(p: MicrowaveParams) -> tuple[Body, ...]:
         (-p.half + SHEET, FLANGE, p.foot + SHEET),
         (p.half - SHEET, p.depth - SHEET, p.height - SHEET),
     )
-    lined, room = _rounded(p, LINER), _rounded(p, 0.0)
+    lined, room = p.lined.outside(), p.lined.room()
     slots = p.leaf.placed(hooks(p, play=0.0035))
     flange = slab(
         (-p.half + 0.001, 0.0, p.foot + 0.001), (p.half - 0.001, FLANGE, p.height - 0.001)
@@ -84,28 +84,12 @@ def hooks(p: MicrowaveParams, *, play: float = 0.0) -> Solid:
     return union(made)
 
 
-def _rounded(p: MicrowaveParams, grown: float) -> Solid:
-    """The cavity grown by so much, its long edges rounded."""
-    (x0, _, z0), (x1, y1, z1) = p.cavity
-    outline = rounded_rectangle(
-        z1 - z0 + 2.0 * grown, x1 - x0 + 2.0 * grown, p.corner + grown, segments=4
-    )
-    front = FLANGE if grown else -0.01
-    solid = upright(prism(outline, y1 + grown - front), "y")
-    return solid.at((x0 + x1) / 2.0, front, (z0 + z1) / 2.0)
-
-
 def _walls(p: MicrowaveParams) -> tuple[Solid, ...]:
     """Boxes around the cavity, and the feet."""
-    (x0, _, z0), (x1, y1, z1) = p.cavity
-    a, d, low, top = p.half, p.depth, p.foot, p.height
+    around = p.lined.walls((-p.half, 0.0, p.foot), (p.half, p.depth, p.height))
     return (
-        slab((-a, 0.0, low), (a, d, z0)),
-        slab((-a, 0.0, z1), (a, d, top)),
-        slab((-a, 0.0, z0), (x0, d, z1)),
-        slab((x1, 0.0, z0), (a, d, z1)),
-        slab((x0, y1, z0), (x1, d, z1)),
-        *(box((0.026, 0.026, low + 0.001), at=(x, y, 0.0)) for x, y in _foot_places(p)),
+        *around,
+        *(box((0.026, 0.026, p.foot + 0.001), at=(x, y, 0.0)) for x, y in _foot_places(p)),
     )
 
 

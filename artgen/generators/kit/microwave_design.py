@@ -5,16 +5,19 @@ from functools import cached_property
 from typing import Literal
 
 from artgen.generators.kit.control_console import PanelPlane
+from artgen.generators.kit.control_panel import ControlPanel
 from artgen.generators.kit.dial import DialStyle
 from artgen.generators.kit.glass_turntable import GlassTurntable
 from artgen.generators.kit.heel_door import HeelDoor
-from artgen.generators.kit.control_panel import ControlPanel
+from artgen.generators.kit.lined_cavity import LinedCavity
 from artgen.generators.kit.window_leaf import Window
 
 SEAM = 0.0018
 """m; between door and panel."""
 GAP = 0.0015
 """m; between door and front flange."""
+LINER, FLANGE = 0.0025, 0.004
+"""m; lining and front flange as drawn; their densities are scaled to 0.6 mm of steel."""
 SCOOP = 0.018
 """m; how far a finger scoop reaches into the panel."""
 BORDER = 0.004
@@ -96,6 +99,12 @@ class MicrowaveParams:
         top = self.height - self.wall_top if side else self.split - 0.026
         low = (-self.half + self.wall_left, 0.0, self.foot + self.wall_low)
         return low, (right, self.depth - self.wall_rear, top)
+
+    @cached_property
+    def lined(self) -> LinedCavity:
+        """The cooking space with its lining, behind the front flange."""
+        (x0, _, z0), high = self.cavity
+        return LinedCavity(low=(x0, FLANGE, z0), high=high, corner=self.corner, lining=LINER)
 
     @cached_property
     def leaf(self) -> HeelDoor:
