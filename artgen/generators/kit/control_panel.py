@@ -20,9 +20,9 @@ from artgen.geometry.solid import Solid, slab
 from artgen.textures.appliance_panel import BRANDS
 
 CELLS: Mapping[str, Mapping[str, float]] = {
-    "keypad": {"brand": 0.9, "display": 1.5, "keys": 4.6, "buttons": 1.3},
-    "dials": {"brand": 1.0, "power_dial": 3.2, "timer_dial": 3.2},
-    "jog": {"brand": 0.9, "display": 1.5, "keys": 1.7, "power_dial": 2.7, "buttons": 1.3},
+    "keypad": {"brand": 1.15, "display": 1.5, "keys": 4.6, "buttons": 1.3},
+    "dials": {"brand": 1.25, "power_dial": 3.2, "timer_dial": 3.2},
+    "jog": {"brand": 1.15, "display": 1.5, "keys": 1.7, "power_dial": 2.7, "buttons": 1.3},
     "knobs": {"function_knob": 3.0, "brand": 1.6, "display": 2.6, "oven_knob": 3.0},
     "touch": {"brand": 2.2, "touch_left": 1.8, "display": 2.6, "touch_right": 2.2},
     "timer": {"brand": 1.8, "function_knob": 2.2, "timer_dial": 2.2, "oven_knob": 2.2},
