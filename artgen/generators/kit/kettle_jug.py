@@ -101,7 +101,7 @@ def _collar(p: KettleParams) -> Body:
         for r in rings
     ]
     ring = Vessel(rings=tuple(wider), wall=p.wall + 0.0011, floor=0.0, segments=56)
-    return Body(solid=ring.shell(), surface="trim", density=ABS, edge=0.0005)
+    return Body(solid=ring.shell(), surface="trim", density=ABS)
 
 
 def _handle(p: KettleParams, wells: list[Solid]) -> list[Body]:
