@@ -22,6 +22,8 @@ from artgen.progress import progress
 from artgen.rules import load_rule, parse_override, rule_names
 from artgen.run_folder import RunFolder, opened, run_log
 from artgen.system_libraries import check_libraries
+from artgen.validate import bundle_subject
+from artgen.validate.interior import open_interiors
 
 BYTES_PER_ASSET = 5_000_000
 """A bundle stays under 3 MB; its sample and its share of the shards add about 1 MB."""
@@ -266,6 +268,8 @@ def inspect(argv: Sequence[str]) -> int:
             ", ".join(needs),
         )
     console.print(joints)
+    for interior in open_interiors(bundle_subject(command.bundle)):
+        console.print(str(interior), highlight=False)
     for path in sorted(command.bundle.rglob("*")):
         if path.is_file():
             console.print(

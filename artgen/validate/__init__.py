@@ -8,9 +8,23 @@ from artgen.validate.bounds import Bounds, load_bounds, shipped_bounds
 from artgen.validate.levels import Selection, run_levels
 from artgen.validate.read import read_subject
 from artgen.validate.report import Finding, Report, Skipped
-from artgen.validate.subject import Source
+from artgen.validate.subject import Source, Subject
 
-__all__ = ["Finding", "Report", "Skipped", "load_bounds", "validate_asset", "validate_bundle"]
+__all__ = [
+    "Finding",
+    "Report",
+    "Skipped",
+    "bundle_subject",
+    "load_bounds",
+    "validate_asset",
+    "validate_bundle",
+]
+
+
+def bundle_subject(folder: Path) -> Subject:
+    """The bundle in `folder` as the checks see it; files are read when first asked for."""
+    source = Source(format="bundle", file=folder / MANIFEST, root=folder)
+    return read_subject(source, shipped_bounds())
 
 
 def validate_bundle(folder: Path) -> Report:

@@ -164,7 +164,13 @@ LEVELS: tuple[Level[Subject], ...] = (
             Check(mechanism.rests, ("semantics.rest",)),
             Check(mechanism.axes, ("semantics.tilt",)),
             Check(mechanism.closed_at_rest, ("semantics.closed",), SEEN),
-            Check(interior.interiors, ("semantics.interior",), (*SEEN, "collision"), "full"),
+            Check(ours(interior.own_interiors), ("semantics.interior",), OURS),
+            Check(
+                interior.foreign_interiors,
+                ("semantics.interior",),
+                ("stranger", *SEEN, "collision"),
+                "full",
+            ),
         ),
     ),
     Level(

@@ -76,6 +76,7 @@ class Bounds:
     axis_slant: Bound
     hollow_least: Bound
     open_interior: Bound
+    open_interior_foreign: Bound
     opened: Bound
     closed: Bound
     drive_time: Bound

@@ -55,6 +55,8 @@ class BundleSubject(Subject):
 
     def lacks(self, need: str) -> str | None:
         """A bundle says everything, but a tool may be missing."""
+        if need == "stranger":
+            return "asked of foreign files; a bundle is asked for more, in every profile"
         return absent() if need == NEED else None
 
     def files(self) -> Iterable[Path]:

@@ -13,11 +13,19 @@ from artgen.articulation.states import open_state, required_state, travel
 from artgen.articulation.types import Joint, State
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.transform import apply
-from artgen.validate.report import Finding
+from artgen.validate.bounds import Bound
+from artgen.validate.bundle_subject import BundleSubject
+from artgen.validate.report import Finding, Note
 from artgen.validate.subject import Subject
 
-GRID = 12
-"""Points a side in a part's box."""
+POINTS = 6000
+"""In a part's box, as even as a grid but on no common plane with its walls."""
+EVEN = 1.2207440846057596
+"""Root of x^4 = x + 1; multiples of its powers fill a cube evenly (Roberts 2018, R3 sequence)."""
+HOLDERS = ("base", "drawer", "rack", "tray", "bin", "basket", "drum")
+"""Labels of parts that things are put into; of a stranger's parts, each that is hollow."""
+HAND = 0.04
+"""m; what is narrower is a gap between wires or the recess of a panel, and no hollow for hands."""
 ENCLOSED = (4, 5)
 """How many of six directions along the axes meet the part: an open box shows five, a shelf four; a
 cavity that shows six is of no use to hands."""
@@ -26,42 +34,87 @@ WINDOW = 64
 """Rays a side of the object, from the front, the back, both sides and above."""
 
 
-def interiors(subject: Subject) -> Iterator[Finding]:
-    """Contact pieces leave open what the visual mesh leaves open."""
-    bounds = subject.bounds
-    for part, pieces in subject.collision.items():
-        if part not in subject.meshes:
-            continue
-        hollow = hollow_points(subject.meshes[part])
-        if len(hollow) < bounds.hollow_least.value * GRID**3:
-            continue
-        share = float(inside_any(hollow, pieces, bounds.gap_slack.value).mean())
-        if share > bounds.open_interior.value:
+@dataclass(frozen=True, kw_only=True)
+class Interior:
+    """The hollow of one part that hands get into.
+
+    Attributes:
+        part: its name.
+        volume: of what the visual mesh leaves open, m3.
+        open: share of it that contact pieces leave open too.
+    """
+
+    part: str
+    volume: float
+    open: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.part}: {self.open:.1%} of a hollow of {1000.0 * self.volume:.3g} l is open to "
+            "contact"
+        )
+
+
+def own_interiors(subject: BundleSubject) -> Iterator[Finding | Note]:
+    """What one sees room for has room, in every container; how much is noted."""
+    yield from _judged(subject, subject.bounds.open_interior)
+
+
+def foreign_interiors(subject: Subject) -> Iterator[Finding | Note]:
+    """Contact pieces leave half of every hollow open at least."""
+    yield from _judged(subject, subject.bounds.open_interior_foreign)
+
+
+def _judged(subject: Subject, bound: Bound) -> Iterator[Finding | Note]:
+    for interior in open_interiors(subject):
+        yield Note(name="semantics.interior", text=str(interior))
+        if not interior.open >= bound.value:
             yield Finding(
                 check="semantics.interior",
-                part=part,
-                value=share,
-                bound=bounds.open_interior.at_most(),
+                part=interior.part,
+                value=interior.open,
+                bound=bound.at_least(),
                 cause="contact pieces fill the hollow that is seen",
                 remedy="author a piece for each wall instead of one hull around all",
             )
 
 
+def open_interiors(subject: Subject) -> Iterator[Interior]:
+    """Of every part that is a container: whose hollow takes enough of its box."""
+    bounds = subject.bounds
+    ours = subject.lacks("manifest") is None
+    holders = {p.name for p in subject.parts if p.label in HOLDERS or not ours}
+    for part, pieces in subject.collision.items():
+        if part not in subject.meshes or part not in holders:
+            continue
+        hollow = hollow_points(subject.meshes[part])
+        if len(hollow) < bounds.hollow_least.value * POINTS:
+            continue
+        box = float(np.prod(np.diff(subject.boxes[part], axis=0)))
+        filled = float(inside_any(hollow, pieces, bounds.gap_slack.value).mean())
+        yield Interior(part=part, volume=box * len(hollow) / POINTS, open=1.0 - filled)
+
+
 def hollow_points(mesh: TriMesh) -> Floats:
-    """(N, 3) points of a grid in the mesh's box that lie in the open, but with the mesh around."""
+    """(N, 3) of `POINTS` points in the mesh's box: those that lie in the open, but with the mesh
+    around, and with room for a hand before or behind them along each axis."""
     lower, upper = mesh.bounds
-    steps = (np.arange(GRID) + 0.5) / GRID
-    grid = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
-    points = lower + grid * (upper - lower)
-    hit = _first_hits(mesh.triangles, np.repeat(points, 6, axis=0), np.tile(WAYS, (len(points), 1)))
+    shares = np.arange(1, POINTS + 1)[:, None] / EVEN ** np.arange(1, 4)
+    points = lower + (0.5 + shares) % 1.0 * (upper - lower)
+    origins, ways = np.repeat(points, 6, axis=0), np.tile(WAYS, (len(points), 1))
+    hit = _first_hits(mesh.triangles, origins, ways)
     a, b, c = mesh.triangles.transpose(1, 0, 2)
-    facing = np.cross(b - a, c - a)[hit]
+    normals = np.cross(b - a, c - a)
     met = (hit >= 0).reshape(-1, 6)
-    from_within = (np.einsum("ij,ij->i", facing, np.tile(WAYS, (len(points), 1))) > 0.0).reshape(
-        -1, 6
-    )
-    solid = (met & from_within).sum(axis=1) > 3
-    return np.asarray(points[np.isin(met.sum(axis=1), ENCLOSED) & ~solid])
+    facing = np.einsum("ij,ij->i", normals[hit], ways)
+    solid = (met & (facing.reshape(-1, 6) > 0.0)).sum(axis=1) > 3
+    reach = np.einsum("ij,ij->i", a[hit] - origins, normals[hit])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        away = np.where(met, (reach / facing).reshape(-1, 6), np.inf)
+    edge = np.concatenate([upper - points, points - lower], axis=1)
+    clear = np.fmin(away, edge)
+    roomy = (clear[:, :3] + clear[:, 3:] >= HAND).all(axis=1)
+    return np.asarray(points[np.isin(met.sum(axis=1), ENCLOSED) & ~solid & roomy])
 
 
 def _first_hits(triangles: Floats, origins: Floats, ways: Floats) -> NDArray[np.intp]:

@@ -60,7 +60,15 @@ def test_a_hollow_that_collision_fills_is_named(tmp_path: Path) -> None:
         if finding.check == "semantics.interior"
     )
     assert found.part == "base"
-    assert float(found.value) > 0.5
+    assert float(found.value) < 0.5
+
+
+def test_the_share_of_every_container_is_noted(tmp_path: Path) -> None:
+    notes = [note.text for note in verdict(cupboard(), tmp_path / "b").notes]
+    assert [text for text in notes if "open to contact" in text] == [
+        "base: 100.0% of a hollow of 141 l is open to contact",
+        "drawer: 100.0% of a hollow of 21.1 l is open to contact",
+    ]
 
 
 def test_a_part_that_is_walled_in_is_out_of_reach(tmp_path: Path) -> None:
