@@ -34,7 +34,8 @@ PROGRAMS = ("Off", "Cotton", "Eco 40", "Mix", "Wool", "Quick 30", "Rinse", "Spin
 TURN = math.radians(300.0)
 """What the scale of a dial without stops covers."""
 KEYS = ("POPCORN", "PIZZA", "POTATO", "REHEAT", "DEFROST", "1", "2", "3", "4", "5", "6", "7", "8",
-        "9", "CLOCK", "0", "POWER", "TIMER", "SOUP", "RICE", "FISH", "MELT", "GRILL", "ADD 30")  # fmt: skip
+        "9", "CLOCK", "0", "POWER", "TIMER", "SOUP", "RICE", "FISH", "MELT", "GRILL",
+        "ADD 30")  # fmt: skip
 TOUCH = {"touch_left": ("power", "sun", "clock"), "touch_right": ("leaf", "lock", "star", "play")}
 GLYPHS = ("play", "pause", "clock", "lock")
 
