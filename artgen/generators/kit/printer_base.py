@@ -10,13 +10,13 @@ from artgen.generators.kit.printer_design import DECK, FRONT, GAP, PrinterParams
 from artgen.generators.kit.round_contact import square_box
 from artgen.geometry.solid import Solid, cylinder, prism, slab, union
 
-CASE = 520.0
+CASE = 370.0
 """kg/m3; walls of 2.5 mm polystyrene with ribs, motors and boards in thick ones."""
 ROD = 0.0045
 """m; radius of the carriage's rail."""
 
 
-def case_stock(surface: str = "case", edge: float = 0.0025) -> Stock:
+def case_stock(surface: str = "case", edge: float = 0.0008) -> Stock:
     """What the case is molded from."""
     return Stock(surface=surface, density=CASE, edge=edge)
 

@@ -158,7 +158,7 @@ def stop_span(p: StaplerParams) -> tuple[float, float]:
 def paper_stop(p: StaplerParams) -> DraftPart:
     """A fence across the base: a bar under the magazine and two posts beside the arm."""
     y, low = stop_span(p)[0], p.base_top + 0.0009
-    x0 = p.arm_half[1] + 0.004
+    x0 = p.arm_half[1] + 0.0055
     bar = slab((-x0 - 0.004, y, low), (x0 + 0.004, y + 0.010, low + 0.0016))
     posts = [slab((s - 0.004, y, low), (s + 0.004, y + 0.003, low + 0.011)) for s in (-x0, x0)]
     piece = Stock(surface="base", density=ABS, edge=0.0006).piece(
