@@ -61,13 +61,13 @@ def soft_sky(value: float, *, floor: float, warmth: float = 0.0) -> Sky:
 
 
 def portrait_rig(*, center: Sequence[float] | Floats, radius: float) -> LightRig:
-    """The rig of every thumbnail."""
+    """The rig of every thumbnail; its bright surrounding is what bare metal shows."""
     boxes = (
         Softbox(
-            azimuth=math.radians(-42), elevation=math.radians(46), distance=4, side=2.4, white=0.62
+            azimuth=math.radians(-42), elevation=math.radians(46), distance=4, side=2.4, white=0.55
         ),
         Softbox(
-            azimuth=math.radians(38), elevation=math.radians(14), distance=4, side=2.6, white=0.34
+            azimuth=math.radians(38), elevation=math.radians(14), distance=4, side=2.6, white=0.30
         ),
         Softbox(
             azimuth=math.radians(165), elevation=math.radians(45), distance=4, side=2.0, white=0.4
@@ -76,7 +76,7 @@ def portrait_rig(*, center: Sequence[float] | Floats, radius: float) -> LightRig
     return LightRig(
         name="portrait",
         lights=tuple(softbox_light(box, center=center, radius=radius) for box in boxes),
-        sky=soft_sky(0.26, floor=0.6),
+        sky=soft_sky(0.45, floor=0.8),
     )
 
 
