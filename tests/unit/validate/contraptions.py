@@ -138,6 +138,11 @@ def kettle(hinge: Joint = KETTLE_HINGE) -> ArticulatedObject:
     return made("pot", (("base", "base", box), ("lid", "lid", lid)), (hinge,), density=1000.0)
 
 
+def touch_lid() -> ArticulatedObject:
+    """A lid that falls shut into its catch."""
+    return kettle(dataclasses.replace(KETTLE_HINGE, spring=None, friction=0.02, effort=20.0))
+
+
 def stool(spring: Spring | None = None) -> ArticulatedObject:
     """A gas lift carries a seat that turns for ever."""
     lift = Joint(
@@ -170,5 +175,6 @@ SOUND = {
     "bucket": bucket,
     "lamp": lamp,
     "kettle": kettle,
+    "touch lid": touch_lid,
     "stool": stool,
 }
