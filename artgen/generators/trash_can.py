@@ -43,7 +43,6 @@ class TrashCanParams:
     press_deg: float
     lid_deg: float
     lid_friction: float
-    catch: float
     bag: bool
     lid_in_plastic: bool
     narrow: float
@@ -99,7 +98,6 @@ def _bins(p: TrashCanParams) -> tuple[PedalBin, ...]:
             press=math.radians(p.press_deg),
             opens=math.radians(p.lid_deg),
             friction=p.lid_friction,
-            catch=p.catch,
             bag=p.bag,
             shell=sheet,
             lid=plastic if p.lid_in_plastic else sheet,

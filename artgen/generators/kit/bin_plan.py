@@ -12,6 +12,8 @@ from artgen.geometry.solid import Solid, loft, prism, slab
 
 REACH = 0.0034
 """How far contact boxes may stand out of a rounded corner, m."""
+LOBE = 0.0095
+"""Side of the box in a rounded corner, m; a smaller bin of the same center clears it."""
 ROUND_SIDES, CORNER_SEGMENTS = 40, 5
 
 
@@ -87,7 +89,7 @@ def boxed_walls(
         slab((-a + side, b - wall, low), (a - side, b, high)),
     ]
     cut = clipped(r)
-    inner = min(side + wall, 2.2 * cut + wall)
+    inner = min(side + wall, cut + LOBE)
     if side <= cut + wall:
         return tuple(walls)
     for sx in (-1.0, 1.0):

@@ -7,7 +7,6 @@ from artgen.articulation.types import (
     DraftPart,
     Grip,
     Joint,
-    Latch,
     Limit,
     Mimic,
     Precondition,
@@ -52,7 +51,6 @@ class PedalBin:
     press: float
     opens: float
     friction: float
-    catch: float
     bag: bool
     shell: Stock
     lid: Stock
@@ -176,7 +174,6 @@ def _lid(b: PedalBin) -> Works:
         friction=b.friction,
         damping=0.08,
         effort=15.0,
-        latch=None if b.step is not None else Latch(force=b.catch, reach=0.08),
         mimic=None
         if b.step is None
         else Mimic(joint=f"{b.name}pedal_press", multiplier=b.opens / b.press),
@@ -224,8 +221,9 @@ def _pedal(b: PedalBin, wide: float) -> Works:
         origin=(b.at, front + INSIDE, middle),
         limit=Limit(lower=0.0, upper=b.press),
         friction=1.2 * b.friction,
-        damping=0.4,
-        effort=40.0,
+        damping=1.6,
+        effort=60.0,
+        velocity=0.4,
     )
     grip = Grip(
         name=f"{b.name}pedal_tread",
@@ -246,7 +244,7 @@ def _bucket(b: PedalBin) -> Works:
     """A bucket that is lifted out once the lid stands open; a bag over its rim by choice."""
     low, high, wall = FOOT + 0.0012, b.height - 0.009, 0.0022
     plan = b.plan
-    taper = 0.010
+    taper = 0.0045
     outside = plan.stack([(BUCKET + taper, low), (BUCKET, high - 0.02), (BUCKET, high - 0.004)])
     room = plan.stack(
         [(BUCKET + taper + wall, low + 0.003), (BUCKET + wall, high - 0.02),
@@ -254,8 +252,11 @@ def _bucket(b: PedalBin) -> Works:
     )  # fmt: skip
     flange = plan.ring(BUCKET - 0.003, BUCKET + wall, high - 0.005, high)
     floor = plan.inner_box(BUCKET + taper, low, low + 0.003)
-    walls = plan.wall_contact(BUCKET + 0.5 * taper, wall + 0.002, low, high, pieces=8)
-    bodies = [b.bucket.piece((outside - room) | flange, contact=(floor, *walls), grain="z")]
+    walls = plan.wall_contact(BUCKET + 0.0008, wall + 0.0006, low, high, pieces=8)
+    ledge = plan.ring(BUCKET - 0.001, BUCKET + wall + 0.011, high - 0.004, high - 0.001)
+    ledge &= slab((0.3 * plan.half[0], 0.0, 0.0), (0.3 * plan.half[0] + 0.03, b.depth, 2.0))
+    tub = union([outside - room, flange, ledge])  # Bags are tucked in behind the ledge.
+    bodies = [b.bucket.piece(tub, contact=(floor, *walls), grain="z")]
     if b.bag:
         drop = min(0.07, 0.25 * (high - low))
         skirt = plan.ring(BUCKET - 0.0042, BUCKET - 0.0032, high - drop, high + 0.0012)
@@ -263,7 +264,7 @@ def _bucket(b: PedalBin) -> Works:
         inner = plan.ring(BUCKET + wall, BUCKET + wall + 0.001, high - 2.0 * drop, high + 0.0012)
         bodies.append(b.liner.piece(union([skirt, top, inner])))
     trigger = f"{b.name}lid_hinge" if b.step is None else f"{b.name}pedal_press"
-    needed = 0.98 * (b.opens if b.step is None else b.press)
+    needed = 0.99 * (b.opens if b.step is None else b.press)
     grips = [
         Grip(
             name=f"{b.name}bucket_rim_{side}",

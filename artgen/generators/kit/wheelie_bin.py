@@ -89,15 +89,12 @@ def _body(b: WheelieBin) -> list[Body]:
     lip = lip.at(0.0, 0.0, top - 0.040)
     room = _arches(b)
     shell = union([outer - room, ring, lip, *_ribs(b)]) - inner
+    end = _wheel_middle(b) - 0.14 * b.tread
     return [
         b.body.piece(shell - room, contact=tuple(_contact(b)), grain="z"),
         b.body.piece(_arch_walls(b, room) & outer, contact=()),
         *_frame(b),
-        b.steel.piece(
-            cylinder(0.009, 2.0 * _wheel_middle(b), axis="x", segments=14).at(
-                -_wheel_middle(b), *b.axle
-            )
-        ),
+        b.steel.piece(cylinder(0.009, 2.0 * end, axis="x", segments=14).at(-end, *b.axle)),
         *(b.body.piece(foot, contact=(foot,)) for foot in _feet(b)),
     ]
 
