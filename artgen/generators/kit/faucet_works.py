@@ -289,7 +289,8 @@ def lift_rod(radius: float, height: float) -> Works:
     )
     up = (0.0, 0.0, 1.0)
     grip = Grip(name="lift_rod_knob", kind="knob", position=(0.0, y, height), outward=up, pull=up)
-    bar = metal(0.0).piece(rod, contact=contact)
+    slot = slab((-0.0006, y - 0.01, height + 0.0040), (0.0014, y + 0.01, height + 0.01))
+    bar = metal(0.0).piece(rod - slot, contact=contact)
     part = DraftPart(name="lift_rod", label="knob", bodies=(bar,), grips=(grip,))
     joint = Joint(
         name="lift_rod_slide",

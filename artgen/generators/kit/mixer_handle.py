@@ -120,7 +120,11 @@ class MixerHandle:
         angles = np.linspace(-math.asin(self.center / self.ball) + 0.03, math.pi / 6.0, 9)
         outline = [(self.ball * math.cos(a), self.center + self.ball * math.sin(a)) for a in angles]
         ends = [(0.0, outline[0][1]), *outline, (0.0, outline[-1][1])]
-        return revolve(ends, segments=28)
+        top = ends[-1][1]
+        notch = slab(
+            (0.3 * self.ball, -0.0020, top - 0.0020), (0.7 * self.ball, 0.0020, top + 0.01)
+        )
+        return revolve(ends, segments=28) - notch
 
     def _ball_contact(self) -> Solid:
         half = self.ball / math.sqrt(3.0) - 0.0005

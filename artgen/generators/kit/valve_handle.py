@@ -106,11 +106,12 @@ class ValveHandle:
         )
 
     def _hub(self) -> Solid:
-        """A turned hub: skirt, waist and crown."""
+        """A turned hub: skirt, waist and crown, with the hole of its grub screw."""
         h = self.height
         profile = [(0.0, GAP), (0.0125, GAP), (0.0130, 0.22 * h), (0.0098, 0.42 * h),
                    (0.0104, 0.80 * h), (0.0088, h), (0.0, h)]  # fmt: skip
-        return revolve(profile, segments=24)
+        screw = cylinder(0.0014, 0.01, axis="x", segments=8).at(0.0065, 0.0, 0.30 * h)
+        return revolve(profile, segments=24) - screw
 
     def _arms(self) -> tuple[Solid, tuple[Solid, ...]]:
         count, make = _STYLES[self.style]
