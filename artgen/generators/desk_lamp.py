@@ -18,7 +18,7 @@ from artgen.geometry.solid import Solid
 
 PARAMS = DeskLampParams
 INVARIANTS = desk_lamp_design.INVARIANTS
-IRON = 5200.0
+IRON = 4200.0
 """kg/m3; a cast weight in a sheet cover."""
 
 

@@ -90,7 +90,7 @@ class Caster:
         boss = slab((-0.009, -0.009, self._boss_clear), (0.009, 0.009, self.shoulder))
         hood = look.hood.piece(self._hood().transformed(place), contact=(boss.transformed(place),))
         length = self.stem + self.shoulder - self._boss_low
-        stem = cylinder(STEM, length, segments=12).at(z=self._boss_low).transformed(place)
+        stem = cylinder(STEM, length, segments=8).at(z=self._boss_low).transformed(place)
         return DraftPart(name=name, label="caster", bodies=(hood, look.stem.piece(stem)))
 
     def wheel_part(self, name: str, place: Floats, look: CasterLook) -> DraftPart:
@@ -124,17 +124,17 @@ class Caster:
         inner, outer = self.radius + PLAY, self._cover
         front, back = math.pi / 2.0 + 1.15, math.pi / 2.0 - max(self.hood, 0.1)
         rim = np.concatenate(
-            [arc((0.0, 0.0), outer, back, front, 7), arc((0.0, 0.0), inner, front, back, 7)]
+            [arc((0.0, 0.0), outer, back, front, 6), arc((0.0, 0.0), inner, front, back, 6)]
         )
         cover = upright(prism(rim, self.width), "x").at(-self.width / 2.0)
         web = prism(
-            np.concatenate([arc((0.0, 0.0), outer - 0.0005, back, front, 7), arc((0.0, 0.0), 0.010,
+            np.concatenate([arc((0.0, 0.0), outer - 0.0005, back, front, 6), arc((0.0, 0.0), 0.010,
                             front + 0.9, back - 0.5 + 2.0 * math.pi, 6)]), FIN
         )  # fmt: skip
         hole = cylinder(PIN + 0.0008, 1.0, axis="x", segments=8).at(-0.5)
         body = union([cover, upright(web, "x").at(-FIN / 2.0)]) - hole
         body = body.at(0.0, self.trail, self.radius)
-        boss = cylinder(0.0125, self.shoulder - self._boss_low, segments=12).at(z=self._boss_low)
+        boss = cylinder(0.0125, self.shoulder - self._boss_low, segments=8).at(z=self._boss_low)
         return union([body, boss])
 
     def _treads(self) -> Solid:
@@ -142,7 +142,7 @@ class Caster:
         w, r = self._tread, self.radius
         ease = 0.16 * w
         outline = [(0.0, 0.0), (r, 0.0), (r, w - ease), (r - ease, w), (0.0, w)]
-        disc = revolve(outline, axis="x", segments=18).at(FIN / 2.0 + GAP)
+        disc = revolve(outline, axis="x", segments=16).at(FIN / 2.0 + GAP)
         return union([disc, disc.mirrored("x")])
 
     def _caps(self) -> Solid:

@@ -74,7 +74,11 @@ class ChairBack:
         if self.style == "net":
             return self._net(cover, shell)
         outline = plan(self.width, self.height, self.corner)
-        steps = [(0.003, -SHELL), (0.0, -0.6 * SHELL), (0.0, 0.0), (0.002, 0.001)]
+        inner = [0.5 * share * self.width for share in (0.3, 0.6, 0.92)]
+        rear_face = [(inset, -SHELL) for inset in reversed(inner)]
+        front_face = [(inset, -0.0003) for inset in inner]
+        edge = [(0.003, -SHELL), (0.0, -0.6 * SHELL), (0.0, -0.002), (0.002, -0.0003)]
+        steps = [*rear_face, *edge, *front_face]
         rear = replace(shell, edge=0.0).piece(pad(outline, steps, self.place))
         bodies = [rear]
         for low, high in self._shares():
@@ -99,7 +103,8 @@ class ChairBack:
             roll=roll,
             crown=0.25 * self.padding,
             reach=min(width, high - low) / 2,
-            rings=(2, 4, 3),
+            rings=(2, 4, 3) if self.style == "shell" else (2, 3, 2),
+            under=(0.9, 0.45) if self.style == "shell" else (0.6,),
         )
 
         def bend(flat: Floats) -> Floats:

@@ -46,6 +46,7 @@ def upholstered(
     crown: float,
     reach: float,
     rings: tuple[int, int, int] = (3, 5, 5),
+    under: Sequence[float] = (),
 ) -> list[Step]:
     """Steps of a pad that is flat below: a rolled edge, then a top that rises by `crown` more.
 
@@ -55,17 +56,20 @@ def upholstered(
         crown: how much thicker it is in the middle.
         reach: half the shorter side of the outline.
         rings: how many steps the edge below, the edge above and the top take.
+        under: steps of the underside, as shares of `reach` from the middle one outward; a pad that
+            is bent needs some, for its flat ends are triangles across.
     """
     low = 0.5 * roll
     below, above = (np.linspace(0.0, np.pi / 2.0, count) for count in rings[:2])
-    under = [(low * (1.0 - np.sin(a)), low * (1.0 - np.cos(a))) for a in below]
+    lower = [(low * (1.0 - np.sin(a)), low * (1.0 - np.cos(a))) for a in below]
     over = [(roll * (1.0 - np.cos(a)), thickness - roll * (1.0 - np.sin(a))) for a in above]
     inward = np.linspace(0.0, 1.0, rings[2] + 1)[1:] ** 1.2
     top = [
         (roll + t * (0.97 * reach - roll), thickness + crown * (1.0 - (1.0 - t) ** 2.2))
         for t in inward
     ]
-    return [(float(inset), float(height)) for inset, height in (*under, *over, *top)]
+    sole = [(share * reach, 0.0) for share in under]
+    return [(float(inset), float(height)) for inset, height in (*sole, *lower, *over, *top)]
 
 
 COARSE = (2, 3, 2)

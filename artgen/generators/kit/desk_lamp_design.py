@@ -14,7 +14,7 @@ from artgen.generators.kit.spring_balance import leaning
 Point = tuple[float, float]
 SOCKET = 0.0235
 """m; radius of a socket's cover."""
-ARM_HALF = 0.0115
+ARM_HALF = 0.0130
 """m; half the thickness of an arm near the head."""
 
 
@@ -137,7 +137,7 @@ def head_clears_a_rising_arm(p: DeskLampParams) -> bool:
     """Where the upper arm rises to the head, the neck keeps the head below it."""
     rise = math.radians(max(-p.dip_deg, 0.0))
     reach = p.bar_width if p.head == "bar" else SOCKET
-    return reach * math.tan(rise) + ARM_HALF / math.cos(rise) + 0.002 < p.neck
+    return reach * math.tan(rise) + ARM_HALF / math.cos(rise) + 0.003 < p.neck
 
 
 def elbow_stays_open(p: DeskLampParams) -> bool:

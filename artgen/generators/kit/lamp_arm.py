@@ -118,7 +118,7 @@ class LampArm:
         collar = cylinder(r + 0.0018, 0.016, segments=16).at(z=low)
         end = cylinder(r + 0.0018, 0.014, segments=16).at(z=high - 0.018)
         half = 0.8 * r
-        touch = slab((-half, -half, 0.004), (half, half, self.length - 0.008))
+        touch = slab((-half, -half, 0.006), (half, half, self.length - WEB))
         return union([tube, collar, end]), (touch,)
 
     def _flat(self) -> tuple[Solid, tuple[Solid, ...]]:

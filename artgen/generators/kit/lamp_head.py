@@ -62,8 +62,10 @@ class LampHead:
         diffuser = prism(lens, 0.004).at(z=low - 0.0008)
         knuckle = slab((-0.016, -0.012, low + thick - 0.001), (0.016, 0.012, -self.neck + 0.006))
         touch = slab((-self.radius, -self.depth, low), (self.radius, self.depth, low + thick))
+        entry = slab((-0.010, self.depth - 0.012, low + thick - 0.001),
+                     (0.010, self.depth - 0.004, low + thick + 0.0035))  # fmt: skip
         return [
-            shade.piece(union([self._tongue(), case, knuckle]) - diffuser, contact=(touch,)),
+            shade.piece(union([self._tongue(), case, knuckle, entry]) - diffuser, contact=(touch,)),
             glow.piece(diffuser),
         ]
 
@@ -96,7 +98,8 @@ class LampHead:
             segments=36,
         )
         top = -self.neck - 0.030
-        cover = self._cover(top)
+        entry = cylinder(0.0042, 0.010, axis="y", segments=12).at(0.0, 0.0205, top + 0.014)
+        cover = self._cover(top) | entry
         bulb_low = float(profile[0, 1]) + 0.012
         boxes = round_boxes(0.0225, top, -self.neck + 0.002)
         return [

@@ -132,7 +132,12 @@ def headrest(
     outline = plan(size[0], size[1], 0.40 * size[1], segments=3)
     thick = 0.8 * size[2]
     steps = upholstered(
-        thick, roll=0.35 * thick, crown=0.2 * size[2], reach=size[1] / 2.0, rings=COARSE
+        thick,
+        roll=0.35 * thick,
+        crown=0.2 * size[2],
+        reach=size[1] / 2.0,
+        rings=COARSE,
+        under=(0.6,),
     )
 
     def lie(flat: Floats) -> Floats:

@@ -129,6 +129,7 @@ class OfficeSeat:
             crown=self.crown,
             reach=reach,
             rings=(2, 4, 3),
+            under=(0.35,),
         )
         solid = pad(outline, steps, self._on_cushion)
         w, d = self.width / 2.0 - 0.012, self.depth / 2.0
