@@ -223,7 +223,7 @@ def _pedal(b: PedalBin, wide: float) -> Works:
         friction=1.2 * b.friction,
         damping=1.6,
         effort=60.0,
-        velocity=0.4,
+        velocity=0.25,
     )
     grip = Grip(
         name=f"{b.name}pedal_tread",
