@@ -99,8 +99,8 @@ def matched(p: PrinterParams, surfaces: Mapping[str, SurfaceSpec]) -> dict[str, 
 
 
 def rear_feeds_open_less(p: PrinterParams) -> bool:
-    """Before a rear feed's cover, unit and lid together stop upright."""
-    return p.feed == "cassette" or p.unit_deg + p.lid_deg <= 92.0
+    """Before a rear feed's cover, unit and lid together stop upright, and carry no feeder."""
+    return p.feed == "cassette" or (p.unit_deg + p.lid_deg <= 92.0 and not p.feeder)
 
 
 def stop_comes_out(p: PrinterParams) -> bool:

@@ -26,6 +26,8 @@ from artgen.textures.appliance_panel import BRANDS
 PARAMS = StaplerParams
 UP, DOWN = (-1.0, 0.0, 0.0), (1.0, 0.0, 0.0)
 """Axes about which the front goes up or down."""
+ASTRIDE = 2.55
+"""rad; magazine and arm together open so far at most, else the arm would meet the base's tail."""
 REACH_IN = 0.7
 """rad; the arm must be open by so much before the follower is drawn back."""
 
@@ -94,7 +96,7 @@ def _magazine_joint(p: StaplerParams, lifted: list[DraftPart]) -> Joint:
         child="magazine",
         axis=UP if p.tacks else DOWN,
         origin=(0.0, 0.0, p.pivot),
-        limit=Limit(lower=0.0, upper=1.2 if p.tacks else p.press),
+        limit=Limit(lower=0.0, upper=min(1.2, ASTRIDE - p.opened) if p.tacks else p.press),
         friction=0.12 if p.tacks else 0.03,
         damping=0.01,
         effort=20.0,
