@@ -193,10 +193,11 @@ class FoldingFrame:
         if self.member.round:
             tube = cylinder(0.0075, 2.0 * x, axis="x", segments=10).at(-x, y, z)
             return stock.piece(tube, contact=(touch,))
+        width = 2.0 * x + (self.leg.thick if x < self.inner else self.member.thick) - 0.001
         reach = 0.019
         path = [(y - reach * math.sin(lean), z - reach * math.cos(lean)),
                 (y + reach * math.sin(lean), z + reach * math.cos(lean))]  # fmt: skip
-        slat = bent_strip(path, bend=0.01, thickness=0.012, width=2.0 * x, across="x")
+        slat = bent_strip(path, bend=0.01, thickness=0.012, width=width, across="x")
         return stock.piece(slat, contact=(touch,))
 
     def _place_back(self, local: Solid, rise: float) -> Solid:
