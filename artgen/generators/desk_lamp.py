@@ -10,11 +10,9 @@ from artgen.generators.kit.board import Stock
 from artgen.generators.kit.cord import cord_stub
 from artgen.generators.kit.density import ABS, ALUMINIUM, GLASS, RUBBER, STEEL
 from artgen.generators.kit.desk_lamp_design import DeskLampParams
-from artgen.generators.kit.dial import Dial
 from artgen.generators.kit.lamp_arm import placed
-from artgen.generators.kit.push_button import PushButton
+from artgen.generators.kit.lamp_controls import badge, lamp_switch
 from artgen.generators.kit.spring_balance import balanced
-from artgen.geometry.solid import Solid
 
 PARAMS = DeskLampParams
 INVARIANTS = desk_lamp_design.INVARIANTS
@@ -25,20 +23,23 @@ IRON = 4200.0
 def build(p: DeskLampParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     """At rest the lower arm leans back, the upper one reaches forward, the light falls down."""
     turret, lower, upper, head = _chain(p)
-    switch, switch_joint, cuts = _switch(p)
-    plate = Stock(surface="coat", density=IRON, edge=0.0)
+    switch, switch_joint, cuts = lamp_switch(p)
+    weight = Stock(surface="coat", density=IRON, edge=0.0)
     rubber = Stock(surface="rubber", density=RUBBER, edge=0.0)
     cord = cord_stub(
         (0.0, p.base.half_depth - 0.002, 0.010), out=(0.0, 1.0, 0.0), surface="rubber", run=0.02
     )
-    base = DraftPart(name="base", label="base", bodies=(*p.base.bodies(plate, rubber, cuts), cord))
+    name, print_ = badge(p, surfaces["coat"])
+    base = DraftPart(
+        name="base", label="base", bodies=(*p.base.bodies(weight, rubber, cuts), name, cord)
+    )
     parts = (base, turret, lower, upper, head, switch)
     worn = {body.surface for part in parts for body in part.bodies}
     return Draft(
         category="desk_lamp",
         parts=parts,
         joints=(_swivel(p), *_hinges(p, lower, upper, head), switch_joint),
-        surfaces=tuple(spec for role, spec in surfaces.items() if role in worn),
+        surfaces=(*(spec for role, spec in surfaces.items() if role in worn), print_),
     )
 
 
@@ -143,29 +144,3 @@ def _hinges(p: DeskLampParams, lower: DraftPart, upper: DraftPart, head: DraftPa
             )
         )
     return joints
-
-
-def _switch(p: DeskLampParams) -> tuple[DraftPart, Joint, list[Solid]]:
-    """A button or a dimmer on the plate."""
-    face, size = p.base.face(), p.switch_size
-    if p.switch == "dial":
-        dial = Dial(
-            name="dimmer",
-            center=(0.0, 0.0),
-            radius=size,
-            height=0.016,
-            style="ribbed",
-            label="knob",
-        )
-        part = dial.part(face, "knob", "light", density=ABS)
-        return part, dial.joint(face, parent="base"), [face.placed(dial.hole())]
-    wide, high = (2.4, 1.2) if p.switch == "long_button" else (1.5, 1.5)
-    button = PushButton(
-        name="switch",
-        center=(0.0, 0.0),
-        size=(wide * size, high * size),
-        round_cap=wide == high,
-        force=2.0,
-    )
-    part = button.part(face, "knob", density=ABS)
-    return part, button.joint(face, parent="base"), [face.placed(button.well())]

@@ -51,6 +51,7 @@ class DeskLampParams:
     knob_left: bool
     lean_friction: float
     two_tone: bool
+    brand: int
 
     @property
     def base(self) -> LampBase:
