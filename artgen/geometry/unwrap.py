@@ -3,6 +3,7 @@ baking."""
 
 from collections.abc import Sequence
 
+import manifold3d as m3
 import numpy as np
 import xatlas
 from numpy.typing import NDArray
@@ -22,6 +23,10 @@ SIDE_AXES = np.array([[1, 2], [2, 0], [0, 1]])
 SMALLEST = 1e-4
 """m; thinner charts are packed as if they were this wide, so that none is lost."""
 MILLIMETRES = 1e3
+FLAT = 4
+"""Faces that a chart has at most without being looked at: so few do not wind over themselves."""
+FOLD = 1e-3
+"""Share of a chart's area that may lie double: rounding along its edges."""
 
 
 def metric_uv(vertices: Floats, faces: Ints, *, grain: int | None, place: int) -> Floats:
@@ -84,6 +89,7 @@ def atlas_uv(parts: Sequence[tuple[Floats, Ints]], *, resolution: int) -> list[F
         GeometryError: xatlas lost a chart.
     """
     flat, charts = zip(*(_axis_charts(vertices, faces) for vertices, faces in parts), strict=True)
+    charts = tuple(_unfolded(*part) for part in zip(parts, flat, charts, strict=True))
     starts = np.cumsum([0, *(int(chart.max()) + 1 for chart in charts)])
     chart = np.concatenate([own + start for own, start in zip(charts, starts, strict=False)])
     uv = np.concatenate(flat)
@@ -117,6 +123,43 @@ def _axis_charts(vertices: Floats, faces: Ints) -> tuple[Floats, NDArray[np.int6
     _, chart = connected_components(links, directed=False)
     _, chart = np.unique(chart[index[:, 0]], return_inverse=True)
     return uv, chart.reshape(-1)
+
+
+def _unfolded(part: tuple[Floats, Ints], uv: Floats, chart: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Chart numbers (F,) such that no chart lies over itself: a helix, seen along its axis, does.
+
+    A chart that does is cut in two by height along its axis, as often as it takes.
+    """
+    order = np.argsort(chart, kind="stable")
+    cuts = np.flatnonzero(np.diff(chart[order])) + 1
+    vertices, faces = part
+    corners = vertices[faces]
+    middles = corners.mean(axis=1)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    apart = np.zeros(len(chart), np.int64)
+    waiting = [own for own in np.split(order, cuts) if len(own) > FLAT and _folded(uv[own])]
+    count = int(chart.max()) + 1
+    while waiting:
+        own = waiting.pop()
+        axis = int(np.argmax(np.abs(normals[own[0]])))
+        ranked = own[np.argsort(middles[own, axis], kind="stable")]
+        for half in np.array_split(ranked, 2):
+            if len(half) > 1 and _folded(uv[half]):
+                waiting.append(half)
+            else:
+                apart[half] = count = count + 1
+    split = np.where(apart > 0, apart, chart)
+    return np.asarray(np.unique(split, return_inverse=True)[1].reshape(-1), np.int64)
+
+
+def _folded(uv: Floats) -> bool:
+    """Whether (F, 3, 2) triangles of one turn cover less than the sum of their areas."""
+    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+    areas = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0
+    total = float(np.abs(areas).sum())
+    upright = np.where((areas < 0.0)[:, None, None], uv[:, ::-1], uv) * MILLIMETRES
+    union = m3.CrossSection(list(upright[areas != 0.0]), m3.FillRule.Positive)
+    return bool(union.area() / MILLIMETRES**2 < (1.0 - FOLD) * total)
 
 
 def _packed(sizes: Floats, resolution: int) -> tuple[Floats, Floats, Floats]:

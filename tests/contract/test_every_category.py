@@ -5,6 +5,7 @@ import math
 import subprocess
 import sys
 
+import manifold3d as m3
 import numpy as np
 import pytest
 
@@ -14,17 +15,26 @@ from artgen.articulation.roles import role_of
 from artgen.articulation.states import required_state
 from artgen.articulation.types import ArticulatedObject, Joint, Limit
 from artgen.core.transform import apply
+from artgen.export.write import ATLAS_SIZE
 from artgen.generators import load_builder
 from artgen.geometry.measure import open_edges, total_volume
 from artgen.geometry.unwrap import texel_density
 from artgen.rules import load_rule
 from tests.made import CATEGORIES, SEED, drafted, drawn, finished, object_hash
 
-ASSETS = [(category, index) for category in CATEGORIES for index in (0, 1)]
+OWN_WORKER = {name: pytest.mark.xdist_group(name) for name in CATEGORIES}
+"""A category is made by one worker, which keeps its drafts and finished objects."""
+ASSETS = [
+    pytest.param(category, index, marks=OWN_WORKER[category])
+    for category in CATEGORIES
+    for index in (0, 1)
+]
 ALONG = ("door", "sash")
 """Roles that may slide along the face they close."""
 every_asset = pytest.mark.parametrize(("category", "index"), ASSETS)
-every_category = pytest.mark.parametrize("category", CATEGORIES)
+every_category = pytest.mark.parametrize(
+    "category", [pytest.param(name, marks=OWN_WORKER[name]) for name in CATEGORIES]
+)
 
 
 def joint_id(joint: Joint) -> str:
@@ -176,3 +186,30 @@ def test_textures_are_in_scale_and_the_atlas_in_its_square(category: str, index:
         assert density.size == 0 or density.max() < 1.0 + 1e-2
         assert part.mesh.atlas.min() >= 0.0
         assert part.mesh.atlas.max() <= 1.0
+
+
+@every_asset
+def test_no_two_places_share_a_texel(category: str, index: int) -> None:
+    """The union of all triangles on the atlas is as large as their sum, but for rounding: corners
+    lie on a grid of 1e-6, so an edge of length 1e-3 may lean over its neighbor by 1e-9."""
+    atlas = np.concatenate([part.mesh.atlas for part in finished(category, index).parts])
+    a, b = atlas[:, 1] - atlas[:, 0], atlas[:, 2] - atlas[:, 0]
+    areas = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0
+    upright = np.where((areas < 0.0)[:, None, None], atlas[:, ::-1], atlas)
+    union = m3.CrossSection(list(upright[areas != 0.0]), m3.FillRule.Positive).area()
+    assert np.abs(areas).sum() - union < 2e-4
+
+
+@every_asset
+def test_texels_are_alike_all_over_an_asset(category: str, index: int) -> None:
+    """One scale for all charts, flattened along an axis: the root of a face's area shrinks by at
+    most 3^(1/4). Charts are packed as whole texels, so faces thinner than three are left out."""
+    parts = finished(category, index).parts
+    corners = np.concatenate([part.mesh.triangles for part in parts])
+    atlas = np.concatenate([part.mesh.atlas for part in parts])
+    sides = np.stack([corners[:, k] - corners[:, k - 1] for k in range(3)], axis=1)
+    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    thickness = area / np.linalg.norm(sides, axis=2).max(axis=1).clip(min=1e-12)
+    density = texel_density(corners, atlas)
+    density = density[thickness * ATLAS_SIZE * np.median(density) > 3.0]
+    assert density.max() <= 2.0 * density.min()

@@ -10,7 +10,9 @@ from tests.golden.tree import PAGE, page
 from tests.made import CATEGORIES, finished
 
 
-@pytest.mark.parametrize("category", CATEGORIES)
+@pytest.mark.parametrize(
+    "category", [pytest.param(name, marks=pytest.mark.xdist_group(name)) for name in CATEGORIES]
+)
 def test_the_object_is_the_one_on_record(category: str) -> None:
     recorded = json.loads((FOLDER / f"{category}.json").read_text())
     assert json.loads(json.dumps(plain(summary(finished(category, 0))))) == recorded

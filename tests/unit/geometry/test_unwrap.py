@@ -1,5 +1,6 @@
 """Two UV sets: metres on the surface, and an atlas that covers nothing twice."""
 
+import manifold3d as m3
 import numpy as np
 from numpy.testing import assert_allclose
 
@@ -88,3 +89,21 @@ def test_a_decal_reads_metres_from_its_corner() -> None:
     uv = flat_uv(vertices, faces, origin=(-0.15, -0.1, 0.01), right=(1, 0, 0), up=(0, 1, 0))
     assert_allclose(uv.reshape(-1, 2).min(axis=0), 0.0, atol=1e-6)
     assert_allclose(uv.reshape(-1, 2).max(axis=0), (0.3, 0.2), atol=1e-6)
+
+
+def test_a_helix_does_not_lie_over_itself_on_the_atlas() -> None:
+    """A ribbon of three turns, whose faces all look up and join: one chart would cover itself."""
+    turn = np.linspace(0.0, 6.0 * np.pi, 97)
+    inner, outer = (
+        np.stack([r * np.cos(turn), r * np.sin(turn), 0.002 * turn], axis=1) for r in (0.02, 0.03)
+    )
+    k = np.arange(96)
+    faces = np.concatenate(
+        [np.stack([k, k + 97, k + 98], axis=1), np.stack([k, k + 98, k + 1], axis=1)]
+    )
+    (atlas,) = atlas_uv([(np.concatenate([inner, outer]), faces)], resolution=512)
+    a, b = atlas[:, 1] - atlas[:, 0], atlas[:, 2] - atlas[:, 0]
+    area = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0
+    union = m3.CrossSection(list(atlas), m3.FillRule.NonZero).area()
+    assert area.sum() > 0.05
+    assert union > (1.0 - 2e-3) * area.sum()
