@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from artgen.articulation.types import Body, Limit
+from artgen.core.mesh import Floats
 from artgen.generators.kit.board import Stock
 from artgen.generators.kit.caster import Caster, CasterLook, quarter_placed
 from artgen.generators.kit.fold_linkage import FoldLinkage
@@ -16,10 +17,10 @@ from artgen.geometry.solid import Solid, box, union
 ANGLES = {"lean": st.floats(0.38, 0.50), "rake": st.floats(0.50, 0.68)}
 
 
-def turned(point: np.ndarray, about: tuple[float, float], angle: float) -> np.ndarray:
+def turned(point: Floats, about: tuple[float, float], angle: float) -> Floats:
     """(y, z) turned about a point, from y towards z."""
     cos, sin = math.cos(angle), math.sin(angle)
-    return np.array(about) + np.array(((cos, -sin), (sin, cos))) @ (point - about)
+    return np.asarray(about + np.array(((cos, -sin), (sin, cos))) @ (point - np.array(about)))
 
 
 @given(share=st.floats(0.0, 1.0), **ANGLES)
