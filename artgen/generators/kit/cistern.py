@@ -160,14 +160,11 @@ def _pressed(
                 force=7.0,
             ),
         ]
-    solid = face.solid
-    for button in buttons:
-        solid = solid - plane.placed(button.well())
     ring = prism(rounded_rectangle(w + 0.014, h + 0.014, 0.3 * h, segments=5), 0.0012)
-    inner = prism(rounded_rectangle(w + 0.003, h + 0.003, 0.26 * h, segments=5), 0.02).at(
-        0.0, 0.0, -0.01
-    )
-    bezel = metal.piece(plane.placed(ring - inner))
+    inner = prism(rounded_rectangle(w + 0.003, h + 0.003, 0.1 * h, segments=4), 0.02)
+    wells = union([plane.placed(button.well()) for button in buttons])
+    bezel = metal.piece(plane.placed(ring - inner.at(0.0, 0.0, -0.01)) - wells)
+    solid = face.solid - wells
     return Flushed(
         base=(*bodies, replace(face, solid=solid), bezel),
         parts=tuple(button.part(plane, metal.surface, density=2500.0) for button in buttons),
