@@ -22,7 +22,7 @@ class PushButton:
         proud: how far it stands out at rest.
         travel: how far it goes in; less than `proud`.
         depth: of the cap below the face at rest.
-        force: N to start it; twice that at the end.
+        force: N to start it; half as much again at the end.
     """
 
     name: str
@@ -67,10 +67,10 @@ class PushButton:
             axis=(x, y, z),
             limit=Limit(lower=0.0, upper=self.travel),
             friction=0.3,
-            damping=0.8,
+            damping=1.5,
             effort=20.0,
             velocity=0.3,
-            spring=Spring(stiffness=self.force / self.travel, reference=-self.travel),
+            spring=Spring(stiffness=self.force / (2.0 * self.travel), reference=-2.0 * self.travel),
         )
 
     def _grip(self, plane: PanelPlane) -> Grip:
