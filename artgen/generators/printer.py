@@ -98,11 +98,6 @@ def matched(p: PrinterParams, surfaces: Mapping[str, SurfaceSpec]) -> dict[str, 
     return looks
 
 
-def rear_feeds_open_less(p: PrinterParams) -> bool:
-    """Before a rear feed's cover, unit and lid together stop upright, and carry no feeder."""
-    return p.feed == "cassette" or (p.unit_deg + p.lid_deg <= 92.0 and not p.feeder)
-
-
 def stop_comes_out(p: PrinterParams) -> bool:
     """The paper stop can be raised before the sliding tray is at its end."""
     reach = min(p.tray_travel, 0.8 * (p.bay_rear - p.front - 0.025))
@@ -115,5 +110,5 @@ def access_is_open(p: PrinterParams) -> bool:
 
 
 INVARIANTS: Mapping[str, Callable[[PrinterParams], bool]] = {
-    check.__name__: check for check in (rear_feeds_open_less, stop_comes_out, access_is_open)
+    check.__name__: check for check in (stop_comes_out, access_is_open)
 }

@@ -140,6 +140,16 @@ class PrinterParams:
         return self.panel_share * self.width, self.works_height - 0.010
 
     @property
+    def feeds_documents(self) -> bool:
+        """Whether the lid carries a document feeder: before a rear feed it has no room to open."""
+        return self.feeder and self.feed == "cassette"
+
+    @property
+    def lid_opening(self) -> float:
+        """Degrees; before a rear feed's cover unit and lid together stop upright."""
+        return self.lid_deg if self.feed == "cassette" else min(self.lid_deg, 92.0 - self.unit_deg)
+
+    @property
     def tilts(self) -> bool:
         """Whether the control panel tilts."""
         return self.panel == "tilting"

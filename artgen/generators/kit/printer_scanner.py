@@ -84,7 +84,7 @@ def lid_part(p: PrinterParams) -> DraftPart:
         case_stock("case", 0.0).piece(body - notch, contact=touch),
         Body(solid=pad, surface="paper", density=140.0),
     ]
-    if p.feeder:
+    if p.feeds_documents:
         bodies += _feeder(p, z1)
     at = (0.0, p.front, z0 + 0.003)
     grip = Grip(
@@ -163,7 +163,7 @@ def lid_joint(p: PrinterParams) -> Joint:
         child="scanner_lid",
         axis=UP,
         origin=(0.0, p.rear, p.cover[0]),
-        limit=Limit(lower=0.0, upper=math.radians(p.lid_deg)),
+        limit=Limit(lower=0.0, upper=math.radians(p.lid_opening)),
         friction=p.lid_friction,
         damping=0.1,
         effort=30.0,
