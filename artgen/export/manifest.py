@@ -14,7 +14,7 @@ from artgen.export.kinematics import as_file_joint
 from artgen.export.layout import MANIFEST, REPORT, BoxPiece, collision_pieces, mesh_path
 from artgen.geometry.measure import total_volume
 
-SCHEMA = "artgen-bundle/1"
+SCHEMA = "artgen-bundle/2"
 LICENSE = "The asset is its maker's: artgen claims no right in what it generates."
 CONVENTIONS = {
     "units": "m, kg, s, rad; forces N, torques N m",

@@ -123,6 +123,6 @@ def test_an_old_bundle_schema_is_named_with_ours_and_a_remedy(run, tmp_path):
     out = tmp_path / "old"
     shutil.copytree(run[1], out)
     path = out / "assets" / "laptop" / "000000" / "manifest.json"
-    path.write_text(path.read_text().replace("artgen-bundle/1", "artgen-bundle/0"))
-    with pytest.raises(ShardError, match=r"'artgen-bundle/0'.*'artgen-bundle/1'; generate"):
+    path.write_text(path.read_text().replace("artgen-bundle/2", "artgen-bundle/0"))
+    with pytest.raises(ShardError, match=r"'artgen-bundle/0'.*'artgen-bundle/2'; generate"):
         write_catalog(out, run[0].packing)

@@ -43,7 +43,7 @@ def test_a_manifest_that_is_no_object_is_refused(folder: Path, text: str) -> Non
 
 
 def test_another_schema_is_named(folder: Path) -> None:
-    with pytest.raises(ExportError, match="'artgen-bundle/0'.*'artgen-bundle/1'"):
+    with pytest.raises(ExportError, match="'artgen-bundle/0'.*'artgen-bundle/2'"):
         read_bundle(edited(folder, schema="artgen-bundle/0"))
 
 

@@ -30,7 +30,7 @@ SMALL = ["--views", "1", "--states", "1", "--size", "16", "--accuracy", "1spp", 
 
 
 def damage_manifest(folder: Path) -> None:
-    (folder / "manifest.json").write_text('{"schema": "artgen-bundle/1", "asset_id"')
+    (folder / "manifest.json").write_text('{"schema": "artgen-bundle/2", "asset_id"')
 
 
 def damage_limit(folder: Path) -> None:

@@ -44,7 +44,7 @@ UNSIGNED: dict[str, tuple[str, str, Edit]] = {
     "schema of another version": (
         "files.readable",
         MANIFEST,
-        replaced(MANIFEST, "artgen-bundle/1", "artgen-bundle/0"),
+        replaced(MANIFEST, "artgen-bundle/2", "artgen-bundle/0"),
     ),
     "manifest without joints": (
         "files.readable",
