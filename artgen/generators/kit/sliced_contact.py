@@ -35,9 +35,10 @@ def sliced_wall(
     """
     boxes = []
     for y0, y1 in pairwise(cuts):
-        places = np.linspace(y0, y1, 7)
-        far = min(float(half_width(outline, places).min()) for outline in outer)
-        near = max((float(half_width(outline, places).max()) for outline in inner), default=0.0)
+        far = min(float(half_width(ring, _places(ring, y0, y1)).min()) for ring in outer)
+        near = max(
+            (float(half_width(ring, _places(ring, y0, y1)).max()) for ring in inner), default=0.0
+        )
         if far - near < THIN:
             continue
         if near < THIN:
@@ -46,3 +47,9 @@ def sliced_wall(
         boxes.append(slab((-far, y0, z[0]), (-near, y1, z[1])))
         boxes.append(slab((near, y0, z[0]), (far, y1, z[1])))
     return tuple(boxes)
+
+
+def _places(outline: Floats, y0: float, y1: float) -> Floats:
+    """Where the width of an outline may be extreme between y0 and y1: its corners and both ends."""
+    ys = outline[:, 1]
+    return np.array([y0, *ys[(ys > y0) & (ys < y1)], y1])
