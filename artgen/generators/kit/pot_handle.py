@@ -97,8 +97,9 @@ def folding_loop(
     corners = [(-half, 0.0), (half, 0.0), (half, -drop), (-half, -drop)]
     path = bent([(x, u, z + v) for u, v in corners], 2.0 * radius, closed=True)
     fair = 0.75 * radius
+    foot = z - drop
     bars = (
-        slab((x - fair, -half + radius, z - drop - fair), (x + fair, half - radius, z - drop + fair)),
+        slab((x - fair, -half + radius, foot - fair), (x + fair, half - radius, foot + fair)),
         *(slab((x - fair, min(s * half, s * (half - fair)) - 0.5 * fair, z - drop),
                (x + fair, max(s * half, s * (half - fair)) + 0.5 * fair, z)) for s in (-1.0, 1.0)),
     )  # fmt: skip
@@ -145,9 +146,15 @@ def long_handle(
     neck = swept(neck_path, 0.62 * width, 0.55 * thick).turned("z", -math.pi / 2.0)
     beyond = slab((split, -1.0, -1.0), (2.0, 1.0, 1.0))
     contact = [_box(piece.turned("z", -math.pi / 2.0)) for piece in swept_boxes(path, width, thick)]
-    grip_boxes = tuple(piece for piece in contact if piece.bounds[0, 0] > r)
+    grip_boxes = tuple(
+        piece
+        for piece in contact
+        if split - 0.003 < piece.bounds[0, 0] and piece.bounds[1, 0] < r + length + 0.002
+    )
     return [
-        metal.piece(neck - shell.outside()),
+        metal.piece(
+            neck - shell.outside(), contact=(_box(neck & slab((r, -1.0, 0.0), (split, 1.0, 1.0))),)
+        ),
         foot_plate(shell, y=0.013, z=z, size=(0.020, 0.026), proud=0.0020, stock=metal),
         foot_plate(shell, y=-0.013, z=z, size=(0.020, 0.026), proud=0.0020, stock=metal),
         stock.piece((bar & beyond) - eye, contact=grip_boxes),

@@ -18,7 +18,7 @@ AFLOAT, FLANGE, PLAY = 0.0008, 0.0030, 0.0012
 """m; between lid and rim, thickness of the lid's edge, between its collar and the wall."""
 EAR = 0.0045
 """m; radius of the hinge's ears."""
-SEGMENTS = 56
+SEGMENTS = 48
 
 
 @dataclass(frozen=True, kw_only=True)

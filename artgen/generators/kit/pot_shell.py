@@ -21,7 +21,7 @@ from artgen.geometry.solid import Solid, revolve, slab
 
 LINING = 0.0005
 """m; thickness of what is seen inside: enamel, a coat, or brushed steel."""
-SEGMENTS = 56
+SEGMENTS = 48
 
 
 @dataclass(frozen=True, kw_only=True)

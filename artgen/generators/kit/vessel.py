@@ -1,7 +1,7 @@
 """Open thin-walled vessels: round, oval or with rounded corners in plan; buckets, bins, pots.
 
-A vessel is a stack of rings. Each ring is a superellipse |x / a|^n + |y / b|^n = 1, which n = 2 makes
-an ellipse and n = 5 a rectangle with round corners.
+A vessel is a stack of rings. Each ring is a superellipse |x / a|^n + |y / b|^n = 1, which n = 2
+makes an ellipse and n = 5 a rectangle with round corners.
 """
 
 import math
@@ -11,10 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from artgen.core.mesh import Floats
-from artgen.geometry.solid import Solid, hull, loft, wire
+from artgen.geometry.solid import Solid, hull, loft, slab, wire
 
-WEDGES = 12
+ROUND_WEDGES, SQUARE_WEDGES = 10, 12
 """Convex pieces of a wall; each costs a file."""
+CORNERS_OUT = {ROUND_WEDGES: 0.0185, SQUARE_WEDGES: 0.011}
+"""Share of the half width by which the chords' corners leave the inside."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,30 +129,29 @@ class Vessel:
     def wall_collision(self, *, top: float | None = None) -> tuple[Solid, ...]:
         """Wedges around an open inside, from the inner floor to `top` (the mouth if None).
 
-        Their inner faces are chords; corners stand out by 1 % so that the room keeps 97 % of its
-        area.
+        Their inner faces are chords; corners stand out so far that the room keeps 97 % of its area,
+        which puts the wedges' outside up to 3 mm before the wall.
         """
         high = self.mouth if top is None else replace(self.mouth, z=top)
         levels = [self.at_height(self.ground), high]
-        outer = [ring.points(WEDGES, inset=-0.0005, turn=TURN) for ring in levels]
-        inner = [
-            ring.points(WEDGES, inset=self.wall - 0.011 * min(ring.half), turn=TURN)
-            for ring in levels
-        ]
+        count = ROUND_WEDGES if high.power < 3.0 else SQUARE_WEDGES
+        out = CORNERS_OUT[count] * min(high.half)
+        turn = math.pi / count  # Joints lie beside the axes, where ears sit, and in corners.
+        outer = [ring.points(count, inset=self.wall - out - 0.0015, turn=turn) for ring in levels]
+        inner = [ring.points(count, inset=self.wall - out, turn=turn) for ring in levels]
         wedges = []
-        for k in range(WEDGES):
-            j = (k + 1) % WEDGES
+        for k in range(count):
+            j = (k + 1) % count
             wedges.append(hull([r[i] for r in (*outer, *inner) for i in (k, j)]))
         return tuple(wedges)
 
-    def floor_collision(self) -> Solid:
-        """The floor as one piece."""
-        low, high = self.rings[0], self.at_height(self.ground)
-        return hull(np.concatenate([low.points(16), high.points(16)]))
-
-
-TURN = math.pi / WEDGES
-"""Wedges have their joints beside the axes, where ears and lips sit."""
+    def floor_collision(self) -> tuple[Solid, ...]:
+        """The floor as two crossed boxes."""
+        a, b = self.rings[0].half
+        low, high = self.rings[0].z, self.ground
+        return tuple(
+            slab((-u * a, -v * b, low), (u * a, v * b, high)) for u, v in ((0.9, 0.42), (0.42, 0.9))
+        )
 
 
 def spread(low: float, high: float, count: int) -> Sequence[float]:
