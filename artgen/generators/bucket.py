@@ -124,8 +124,8 @@ def build(p: BucketParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     parts = [base]
     if p.grip == "roller":
         parts += [
-            DraftPart(name="bail", label="handle", bodies=(hoop,)),
-            DraftPart(name="grip", label="handle", bodies=(sleeve,), grips=(grip,)),
+            DraftPart(name="bail", label="handle", bodies=(hoop,), grips=(grip,)),
+            DraftPart(name="grip", label="handle", bodies=(sleeve,)),
         ]
         joints.append(
             Joint(

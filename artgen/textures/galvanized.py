@@ -1,7 +1,9 @@
 """Hot-dip galvanized steel: zinc crystals (spangle) that differ in gloss and gray."""
 
 import numpy as np
+from numpy.typing import NDArray
 
+from artgen.core.mesh import Floats
 from artgen.core.stream import Stream
 from artgen.core.surface import SurfaceSpec, srgb_hex
 from artgen.textures.images import Image, TextureSet
@@ -25,7 +27,7 @@ def galvanized(spec: SurfaceSpec) -> TextureSet:
     return TextureSet(color=_bytes(color), roughness=_bytes(rough))
 
 
-def _nearest(seeds: np.ndarray) -> np.ndarray:
+def _nearest(seeds: Floats) -> NDArray[np.intp]:
     """(SIZE, SIZE) index of the nearest seed on a square that wraps around."""
     steps = (np.arange(SIZE) + 0.5) / SIZE
     best = np.full((SIZE, SIZE), np.inf)
@@ -39,5 +41,5 @@ def _nearest(seeds: np.ndarray) -> np.ndarray:
     return cell
 
 
-def _bytes(values: np.ndarray) -> Image:
+def _bytes(values: Floats) -> Image:
     return np.clip(np.rint(values), 0, 255).astype(np.uint8)

@@ -20,7 +20,7 @@ def bored_ear(vessel: Vessel, bail: Bail) -> Solid:
     bore = cylinder(bail.wire + PLAY, 0.05, axis="x", segments=12).at(
         bail.span - 2.0 * bail.wire - 0.004, 0.0, z
     )
-    return union([pad, boss]) - bore - vessel.inside()
+    return union([pad, boss]) - bore - vessel.outside()
 
 
 def tipping_strap(vessel: Vessel) -> Solid:
