@@ -1,6 +1,6 @@
 """Armrests of office chairs: pads on posts that rise from sleeves, or on fixed loops."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -108,8 +108,11 @@ class Armrest:
             (self.x - 0.020, y0 + 0.02, z1 - 0.010), (self.x + 0.020, y1 - 0.01, z1 + 0.010)
         )
         post = slab((self.x - 0.020, y1 - 0.026, z0), (self.x + 0.020, y1 - 0.004, z1 - 0.01))
-        return [stock.piece(loop, contact=(rail, post)), stock.piece(foot, contact=(foot,)),
-                self._pad(soft)]  # fmt: skip
+        return [
+            stock.piece(loop, contact=(rail, post)),
+            replace(stock, edge=0.0).piece(foot, contact=(foot,)),
+            self._pad(soft),
+        ]
 
     def _pad(self, soft: Stock) -> Body:
         outline = plan(self.width, self.length, 0.42 * self.width, segments=3)

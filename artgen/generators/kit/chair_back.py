@@ -15,6 +15,8 @@ from artgen.geometry.solid import Solid, loft, slab, union, wire
 Style = Literal["net", "shell", "panels"]
 SHELL = 0.010
 """m; thickness of a padded back's shell."""
+AIR = 0.0018
+"""m; between the shell and its cushions, so that chords of one do not cut the other."""
 FRAME = 0.0095
 """m; radius of a net's frame."""
 
@@ -76,8 +78,8 @@ class ChairBack:
         outline = plan(self.width, self.height, self.corner)
         inner = [0.5 * share * self.width for share in (0.3, 0.6, 0.92)]
         rear_face = [(inset, -SHELL) for inset in reversed(inner)]
-        front_face = [(inset, -0.0003) for inset in inner]
-        edge = [(0.003, -SHELL), (0.0, -0.6 * SHELL), (0.0, -0.002), (0.002, -0.0003)]
+        front_face = [(inset, -0.0010) for inset in inner]
+        edge = [(0.003, -SHELL), (0.0, -0.6 * SHELL), (0.0, -0.002), (0.002, -0.0010)]
         steps = [*rear_face, *edge, *front_face]
         rear = replace(shell, edge=0.0).piece(pad(outline, steps, self.place))
         bodies = [rear]
@@ -108,7 +110,7 @@ class ChairBack:
         )
 
         def bend(flat: Floats) -> Floats:
-            return self.place(flat + np.array((0.0, (low + high) / 2.0, 0.0)))
+            return self.place(flat + np.array((0.0, (low + high) / 2.0, AIR)))
 
         contact = self._contact(SHELL, 0.8 * self.padding, low, high)
         soft = cover.piece(pad(outline, steps, bend), contact=contact)

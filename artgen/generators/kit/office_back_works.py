@@ -1,5 +1,7 @@
 """What carries the back of an office chair: cheeks on the tilt's pivot, the spine, the headrest."""
 
+from dataclasses import replace
+
 from artgen.articulation.types import Body, DraftPart, Grip, Joint, Limit, Spring
 from artgen.core.mesh import Floats
 from artgen.generators.kit.bent_strip import bent_strip
@@ -20,9 +22,10 @@ PLAY = 0.0012
 def spine(seat: OfficeSeat, back: ChairBack, stock: Stock, *, width: float) -> list[Body]:
     """Cheeks beside the housing, a bridge behind it, and a bar that rises behind the back."""
     _, y, z = seat.tilt
+    sharp = replace(stock, edge=0.0)
     inner = BOX[0] / 2.0 + 0.0018
     bridge = BACK + 0.012
-    rear = max(back.behind(0.0), back.behind(0.45 * back.height)) + STRIP / 2.0 - 0.001
+    rear = max(back.behind(0.0), back.behind(0.45 * back.height)) + STRIP / 2.0 - 0.004
     cheek = union([
         cylinder(0.017, CHEEK, axis="x", segments=20).at(inner, y, z),
         slab((inner, y, z - 0.012), (inner + CHEEK, bridge + 0.012, z + 0.012)),
@@ -37,8 +40,8 @@ def spine(seat: OfficeSeat, back: ChairBack, stock: Stock, *, width: float) -> l
     level = slab((-width / 2, bridge + 0.004, z - STRIP / 2), (width / 2, rear, z + STRIP / 2))
     cheeks = union([cheek, cheek.mirrored("x"), cross])
     return [
-        stock.piece(cheeks, contact=(cross,)),
-        stock.piece(union([bolt, bolt.mirrored("x")])),
+        sharp.piece(cheeks, contact=(cross,)),
+        sharp.piece(union([bolt, bolt.mirrored("x")])),
         stock.piece(bar, contact=(upright, level)),
         *_mounts(back, stock, rear, width),
     ]
@@ -49,11 +52,11 @@ def _mounts(back: ChairBack, stock: Stock, rear: float, width: float) -> list[Bo
     pieces: list[Solid] = []
     for share in (0.14, 0.40):
         rise = share * back.height
-        near = back.behind(rise) - 0.001
-        if rear - near > 0.003:
+        near = back.behind(rise) - 0.004
+        if rear - near > 0.006:
             z, half = back.low + rise, 0.5 * width
             pieces.append(slab((-half, near, z - 0.022), (half, rear, z + 0.022)))
-    solid = [stock.piece(union(pieces))] if pieces else []
+    solid = [replace(stock, edge=0.0).piece(union(pieces))] if pieces else []
     if back.style == "net":
         solid.append(_lumbar_bow(back, stock, rear))
     return solid
