@@ -10,7 +10,7 @@ from artgen.generators.kit.printer_design import DECK, FRONT, GAP, PrinterParams
 from artgen.generators.kit.round_contact import square_box
 from artgen.geometry.solid import Solid, cylinder, prism, slab, union
 
-CASE = 370.0
+CASE = 320.0
 """kg/m3; walls of 2.5 mm polystyrene with ribs, motors and boards in thick ones."""
 ROD = 0.0045
 """m; radius of the carriage's rail."""
