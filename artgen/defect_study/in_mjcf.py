@@ -98,6 +98,14 @@ def base_hull(root: ET.Element) -> None:
     ET.SubElement(base, "geom", {"class": "collision", "type": "mesh", "mesh": mesh, "mass": "0"})
 
 
+def latch_pushes(root: ET.Element) -> None:
+    """A catch with the sign of a spring: it throws the part open."""
+    tendons = ET.SubElement(root, "tendon")
+    catch = {"stiffness": "400", "springlength": "0.05 1e10"}
+    fixed = ET.SubElement(tendons, "fixed", name="catch", **catch)
+    ET.SubElement(fixed, "joint", joint=first(root, JOINT).get("name", ""), coef="1")
+
+
 MJCF_DEFECTS = tuple(
     Defect(name=f"mjcf_{name}", format="mjcf", what=what, plant=plant)
     for name, what, plant in (
@@ -130,6 +138,7 @@ MJCF_DEFECTS = tuple(
             everywhere(".//geom[@class='collision']", "contype", "0"),
         ),
         ("base_hull", "one hull stands for a carcass", in_tree(base_hull)),
+        ("latch_pushes", "a catch that pushes", in_tree(latch_pushes)),
         ("body_nan", "a part nowhere", put(MOVING, "pos", "nan 0 0")),
         ("unknown_element", "a word that MuJoCo does not know", put(JOINT, "colour", "red")),
     )

@@ -243,6 +243,16 @@ def extra_joint(parent: str, child: str) -> Plant:
     return in_tree(change)
 
 
+def loose_frame(root: ET.Element) -> None:
+    """Where to take hold, on a joint that should have been fixed."""
+    held = below(joint(root), "child").get("link", "")
+    added = ET.SubElement(root, "joint", name="grip_frame", type="revolute")
+    ET.SubElement(added, "parent", link=held)
+    ET.SubElement(added, "child", link="grip")
+    ET.SubElement(added, "limit", lower="0", upper="1", effort="1", velocity="1")
+    ET.SubElement(root, "link", name="grip")
+
+
 def mimic(other: str) -> Plant:
     """The first joint follows another; `self` is itself."""
 

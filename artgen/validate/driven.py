@@ -240,4 +240,6 @@ def _fine_step(model: mujoco.MjModel, data: mujoco.MjData, q: Floats) -> float:
     stiff = model.jnt_stiffness + np.abs(model.tendon_stiffness).max(initial=0.0) * latched(model)
     pull = np.abs(data.qfrc_bias) + stiff
     rate = math.sqrt(float((pull * np.diag(np.linalg.inv(mass))).max())) + PUSH
-    return min(0.01, 2.0 * math.pi / rate / STEPS_A_PERIOD)
+    longest = int(np.bincount(model.dof_treeid[model.dof_treeid >= 0]).max(initial=0))
+    steps = STEPS_A_PERIOD * (2.0 if longest > 2 else 1.0)  # A chain whips as it falls.
+    return min(0.01, 2.0 * math.pi / rate / steps)

@@ -97,18 +97,29 @@ def _place(subject: BundleSubject, part: str, grip: Grip) -> Iterator[Finding]:
 
 
 def _pull(subject: BundleSubject, part: str, grip: Grip) -> Iterator[Finding]:
-    joint = next((j for j in subject.joints if j.child == part), None)
-    if joint is None:
-        return  # The base: it is carried by such a grip.
-    way = way_of(joint, grip)
-    if np.linalg.norm(way) < (NO_ARM if joint.type != "prismatic" else 0.0):
-        return
-    along = float(way @ grip.pull / np.linalg.norm(way))
-    least = subject.bounds.grip_pull
+    by_child, least = {j.child: j for j in subject.joints}, subject.bounds.grip_pull
+    joint = by_child.get(part)
+    if joint is None or np.linalg.norm(way_of(joint, grip)) < NO_ARM:
+        return  # The base is carried by such a grip; a knob is turned.
+    along = max(_along(j, grip) for j in _carriers(joint, by_child))
     if not along >= least.value:
         yield _finding("semantics.grip", grip.name, along, least.at_least(),
                        f"pulled so, {joint.name} does not open: the cosine between pull and motion",
                        "turn its pull direction along the motion at rest")  # fmt: skip
+
+
+def _carriers(joint: Joint, by_child: Mapping[str, Joint]) -> Iterator[Joint]:
+    """A joint and those that carry it: a roll on a bail turns, and the bail is what one lifts."""
+    above: Joint | None = joint
+    while above is not None:
+        yield above
+        above = by_child.get(above.parent)
+
+
+def _along(joint: Joint, grip: Grip) -> float:
+    """Cosine between the pull and how the grip starts to move."""
+    way = way_of(joint, grip)
+    return float(way @ grip.pull / max(float(np.linalg.norm(way)), 1e-12))
 
 
 def way_of(joint: Joint, grip: Grip) -> Floats:

@@ -124,7 +124,10 @@ def hinges(subject: Subject) -> Iterator[Finding]:
         axis, origin = np.array(joint.axis), np.array(joint.origin)
         diagonal = float(np.linalg.norm(np.diff(box, axis=0)))
         allowed = bounds.hinge_share.value * diagonal + bounds.hinge_slack.value
-        if role is None or role.edged:
+        if role is not None and role.edged:
+            distance = end_distance(box, axis, origin)
+            cause = "the pivot lies off the part's edge"
+        elif role is None:
             distance = edge_distance(box, axis, origin)
             cause = "the pivot lies off the part's edge"
         else:
@@ -287,6 +290,22 @@ def edge_distance(box: Floats, axis: Floats, origin: Floats) -> float | None:
     others = [k for k in range(3) if k != along]
     gaps = np.abs(box[:, others] - origin[others]).min(axis=0)
     return float(np.linalg.norm(gaps))
+
+
+def end_distance(box: Floats, axis: Floats, origin: Floats) -> float | None:
+    """From a line along a coordinate axis to the nearer end of a box's longer side across it.
+
+    Leaves with handles before and bins behind them are thicker than the edge that they turn about.
+    """
+    along = int(np.argmax(np.abs(axis)))
+    if abs(axis[along]) < 1.0 - 1e-9:
+        return None
+    extent = np.where(np.arange(3) == along, -1.0, np.diff(box, axis=0)[0])
+    across = int(np.argmax(extent))
+    thick = 3 - along - across
+    end = np.abs(box[:, across] - origin[across]).min()
+    outside = max(box[0, thick] - origin[thick], origin[thick] - box[1, thick], 0.0)
+    return float(np.hypot(end, outside))
 
 
 def line_distance(box: Floats, axis: Floats, origin: Floats) -> float:
