@@ -4,7 +4,7 @@ PYTHON     ?= python3.11
 VENV       := .venv
 BIN        := $(VENV)/bin
 CATEGORIES ?=
-COUNT      ?= 12
+COUNT      ?=
 SEED       ?= 0
 OUT        ?= out
 WORKERS    ?= $(shell nproc)
@@ -17,7 +17,7 @@ help: ## print this list
 	@echo '  variables: CATEGORIES="laptop cabinet" COUNT=200 SEED=7 OUT=out WORKERS=2'
 
 generate: install ## rules -> assets -> renders -> shards, installing what it needs first
-	$(BIN)/artgen generate --count $(COUNT) --seed $(SEED) --out $(OUT) --workers $(WORKERS) $(if $(strip $(CATEGORIES)),--categories $(CATEGORIES))
+	$(BIN)/artgen generate --seed $(SEED) --out $(OUT) --workers $(WORKERS) $(if $(strip $(COUNT)),--count $(COUNT)) $(if $(strip $(CATEGORIES)),--categories $(CATEGORIES))
 
 test: install-test lint type unit ## install the rest and pass every test
 
@@ -61,8 +61,10 @@ goldens: install-test ## rewrite the golden summaries of the categories
 	$(BIN)/python -m tests.golden.write
 
 gallery: install ## rewrite the pictures in docs/
-	$(BIN)/artgen generate --count 12 --seed 2026 --size 256 --views 1 --states 2 --out out/gallery
+	$(BIN)/artgen generate --seed 2026 --size 192 --views 1 --states 2 --out out/gallery
 	mkdir -p docs/images && cp out/gallery/contact_sheet.png docs/images/contact_sheet.png
+	$(BIN)/artgen sheet $(notdir $(basename $(filter-out category_rules/_%,$(wildcard category_rules/*.toml)))) \
+	  --count 24 --seed 2026 --out docs/images/categories --work out/sheets
 
 bench: install-test ## measure the figures in docs/benchmarks.md
 	$(BIN)/python -m tests.bench.figures

@@ -23,8 +23,10 @@ usage: artgen COMMAND [OPTIONS]        (artgen COMMAND --help explains each opti
 
 Start here:
   artgen doctor                                        is this machine ready?
-  artgen generate --count 12 --out out                 rules -> assets -> renders -> shards
+  artgen generate --out out                            rules -> assets -> renders -> shards
   artgen generate --categories laptop cabinet --count 200 --seed 7 --workers 2
+  artgen generate --categories safe --count 5 --set safe.lock=dial --out safes
+  artgen sheet laptop --count 8                        what a category looks like
   artgen inspect out/assets/laptop/000000              what is in a bundle
 
 Commands:

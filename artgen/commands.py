@@ -41,8 +41,8 @@ class Generate:
 
     categories: tuple[str, ...] = ()
     """Which categories; all that `artgen categories` lists when none is named."""
-    count: int = 12
-    """How many assets in all, dealt out to the categories in turn."""
+    count: int | None = None
+    """How many assets in all, dealt out to the categories in turn; one of each if not given."""
     seed: int = 0
     """Root of all randomness."""
     set: tuple[str, ...] = ()
@@ -78,7 +78,7 @@ def generate(argv: Sequence[str]) -> int:
     names = command.categories or tuple(rule_names())
     tasks = plan(
         names,
-        command.count,
+        len(names) if command.count is None else command.count,
         command.seed,
         occlusion=command.bake_ao,
         overrides=[parse_override(word) for word in command.set],

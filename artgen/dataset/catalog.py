@@ -20,7 +20,7 @@ from artgen.dataset.packing import Packing
 from artgen.dataset.reader import open_shard
 from artgen.dataset.split import split_of
 
-BUNDLE_SCHEMA = "artgen-bundle/1"
+BUNDLE_SCHEMA = "artgen-bundle/2"
 
 _JOINT = pa.struct(
     [
