@@ -107,6 +107,19 @@ ROLES: Mapping[str, Role] = {
 """Word to role; `docs/conventions.md` prints this table."""
 
 
+def roles_table() -> str:
+    """The vocabulary as a table of Markdown."""
+    rows = [
+        "| role | what it is | turning, N m | sliding, N | closes | edge |",
+        "|---|---|---|---|---|---|",
+    ]
+    for word, role in ROLES.items():
+        spans = (f"{low:g} to {high:g}" for low, high in (role.turning, role.sliding))
+        flags = ("yes" if flag else "" for flag in (role.closes, role.edged))
+        rows.append("| " + " | ".join((f"`{word}`", role.meaning, *spans, *flags)) + " |")
+    return "\n".join(rows)
+
+
 def role_of(label: str) -> Role:
     """The role that a label names.
 
