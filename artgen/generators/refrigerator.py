@@ -17,9 +17,11 @@ from artgen.generators.kit.fridge_contents import (
     inside,
 )
 from artgen.generators.kit.fridge_design import (
+    STOP,
     FridgeParams,
     Zone,
     doors_hold_bins,
+    doors_open_far_enough,
     freezer_holds_something,
 )
 from artgen.generators.kit.ice_dispenser import IceDispenser
@@ -28,8 +30,6 @@ PARAMS = FridgeParams
 INKS = (("#0e4c92", "#f2f4f6"), ("#f1e6c8", "#7a1f1a"), ("#0f6b3c", "#f6f1dc"),
         ("#e58a13", "#fff8ea"), ("#f5f5f2", "#b3161c"))  # fmt: skip
 """Ground and ink of labels."""
-STOP = 0.035
-"""rad that a door opens further than what slides out behind it needs."""
 
 
 def build(p: FridgeParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
@@ -74,8 +74,9 @@ def _base_bodies(p: FridgeParams) -> list[Body]:
 def _door(p: FridgeParams, zone: Zone, leaf: ColdLeaf, content: Inside) -> Inside:
     """A door, its joint, its hinges on the case, and what is set into its skin."""
     door = p.door_of(leaf, zone)
-    needed = [rule.at_least for rule in content.rules if rule.requires == f"{leaf.name}_hinge"]
-    joint = leaf.swing(upper=max(p.opening, *(a + STOP for a in needed), 0.0),
+    slides = any(rule.requires == f"{leaf.name}_hinge" for rule in content.rules)
+    least = p.needed(zone, leaf) + STOP if slides else 0.0
+    joint = leaf.swing(upper=min(max(p.opening, least), leaf.widest()),
                        friction=p.friction, latch=Latch(force=p.latch, reach=0.05))  # fmt: skip
     extra: list[Body] = []
     parts: list[DraftPart] = []
@@ -132,5 +133,6 @@ def _prints(p: FridgeParams) -> list[SurfaceSpec]:
 
 
 INVARIANTS: Mapping[str, Callable[[FridgeParams], bool]] = {
-    check.__name__: check for check in (doors_hold_bins, freezer_holds_something)
+    check.__name__: check
+    for check in (doors_hold_bins, doors_open_far_enough, freezer_holds_something)
 }

@@ -151,6 +151,7 @@ class BeverageParams:
                 ColdLeaf(
                     name=name, hinge=hinge, corner=(x0 if left else x1, 0.0, low), width=width,
                     length=high - low, thickness=self.door, gap=self.gap, inset=self.inset,
+                    setback=self.inset,
                     seal_inset=self.inset + 0.0015,
                 )
             )  # fmt: skip
@@ -210,7 +211,8 @@ class BeverageParams:
 
     def upper(self, leaf: ColdLeaf) -> float:
         """How far a door opens, rad."""
-        return max(math.radians(self.opening_deg), self.clear_at(leaf) + math.radians(2.0))
+        wanted = max(math.radians(self.opening_deg), self.clear_at(leaf) + math.radians(2.0))
+        return min(wanted, leaf.widest())
 
 
 def rails_hold_gasket(p: BeverageParams) -> bool:

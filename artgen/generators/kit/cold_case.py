@@ -8,8 +8,7 @@ from artgen.articulation.types import Body
 from artgen.generators.kit.density import ABS, POLYPROPYLENE, STEEL
 from artgen.generators.kit.lined_cavity import LinedCavity
 from artgen.generators.kit.wire_rack import bent
-from artgen.geometry.profile import rounded_rectangle
-from artgen.geometry.solid import Solid, box, cylinder, prism, revolve, slab, union, wire
+from artgen.geometry.solid import Solid, box, cylinder, revolve, slab, union, wire
 
 Cell = tuple[tuple[float, float], tuple[float, float]]
 """(x, z) of the lower left and the upper right corner of a room with its share of the walls."""
@@ -159,7 +158,7 @@ class ColdCase:
             cuts = [slab((-wide, front - 0.01, z - 0.28 * pitch),
                          (wide, front + 0.008, z + 0.28 * pitch))
                     for z in middle - tall + pitch * (np.arange(bars) + 0.5)]  # fmt: skip
-        return [Body(solid=plate - union(cuts), surface=surface, density=ABS, edge=0.001)]
+        return [Body(solid=plate - union(cuts), surface=surface, density=ABS)]
 
     def coil(self, surface: str, *, legs: int) -> list[Body]:
         """The condenser's serpentine on the back with its wire rungs."""
@@ -174,11 +173,3 @@ class ColdCase:
         rungs = [slab((x - 0.001, start, low - 0.01), (x + 0.001, end, high + 0.01))
                  for x in np.linspace(-0.8 * wide, 0.8 * wide, 4)]  # fmt: skip
         return [Body(solid=union([tube, *rungs]), surface=surface, density=STEEL)]
-
-    def top_board(self, surface: str, thickness: float) -> Body:
-        """A worktop on the case with rounded front corners, over the doors too."""
-        outline = rounded_rectangle(2.0 * self.half, self.depth, (0.012, 0.012, 0.004, 0.004),
-                                    segments=3)  # fmt: skip
-        board = prism(outline, thickness).at(0.0, self.depth / 2.0, self.top)
-        contact = slab((-self.half, 0.0, self.top), (self.half, self.depth, self.top + thickness))
-        return Body(solid=board, surface=surface, density=700.0, edge=0.003, collision=(contact,))

@@ -17,7 +17,7 @@ BAR_FRONT = 0.018
 BAR = 0.034
 """m; height and depth of the control bar."""
 SCREEN = (0.105, 0.024)
-DIAL_FACE = (0.090, 0.032)
+DIAL_FACE = (0.090, 0.033)
 
 
 def control_bar(room: LinedCavity, surface: str, *, front: float = BAR_FRONT) -> Body:
@@ -60,7 +60,7 @@ def screen_print(temperature: int, led: str) -> SurfaceSpec:
 
 def thermostat(name: str = "thermostat") -> Dial:
     """A knob from off to the coldest."""
-    return Dial(name=name, center=(DIAL_FACE[0] / 2.0, 0.014), radius=0.0105, height=0.013,
+    return Dial(name=name, center=(DIAL_FACE[0] / 2.0, 0.016), radius=0.0125, height=0.016,
                 style="bar", lift=0.0008)  # fmt: skip
 
 
@@ -107,7 +107,7 @@ def evaporator_cover(room: LinedCavity, surface: str, *, bottom: float, thicknes
         for z in top - 0.06 - 0.014 * np.arange(6)
     ]  # fmt: skip
     contact = slab((middle - half, y1 - thickness, bottom + 0.03), (middle + half, y1, top))
-    return Body(solid=sheet - union(slots), surface=surface, density=0.5 * ABS, edge=0.001,
+    return Body(solid=sheet - union(slots), surface=surface, density=0.5 * ABS,
                 collision=(contact,))  # fmt: skip
 
 

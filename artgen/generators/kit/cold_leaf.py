@@ -42,7 +42,8 @@ class ColdLeaf:
         length: upright.
         thickness: from front to back.
         gap: between the back and the cabinet; the gasket fills it.
-        inset: of the pivot's axis from the hinge's edge, and from the back.
+        inset: of the pivot's axis from the hinge's edge.
+        setback: of the pivot's axis from the back.
         seal_inset: of the gasket from the leaf's edges.
     """
 
@@ -54,6 +55,7 @@ class ColdLeaf:
     thickness: float
     gap: float
     inset: float
+    setback: float
     seal_inset: float
 
     @property
@@ -69,7 +71,7 @@ class ColdLeaf:
     @property
     def pin(self) -> tuple[float, float]:
         """(x, y) of the pivots' axis."""
-        return self.inset, self.back - self.inset
+        return self.inset, self.back - self.setback
 
     @property
     def matrix(self) -> Floats:
@@ -113,9 +115,9 @@ class ColdLeaf:
         )
 
     def gasket(self, surface: str) -> Body:
-        """A magnetic bellows all around: a foot on the leaf, a fold, and the magnet's strip."""
+        """A magnetic bellows all around: its fold, and the magnet's strip before it."""
         deep = -self.back - SEAL_PLAY
-        rings = ((0.0, 0.45, 0.0), (0.45, 0.60, 0.0035), (0.60, 1.0, 0.0012))
+        rings = ((0.0, 0.55, 0.0032), (0.55, 1.0, 0.0))
         solids = []
         for start, end, narrowed in rings:
             outer = self._outline(self.seal_inset + narrowed)
@@ -124,9 +126,9 @@ class ColdLeaf:
             solids.append(ring.at(y=self.back + start * deep))
         return Body(solid=union(solids), surface=surface, density=0.55 * RUBBER)
 
-    def bores(self, depth: float = 0.012) -> Solid:
+    def bores(self, depth: float = 0.0090) -> Solid:
         """Room for the pins in the leaf's ends."""
-        hole = cylinder(PIN + 0.001, depth + 0.01, segments=14)
+        hole = cylinder(PIN + 0.001, depth + 0.01, segments=10)
         return union([hole.at(*self.pin, z) for z in (-0.01, self.length - depth)])
 
     def hinge_plates(self, surface: str, *, ends: tuple[bool, bool] = (True, True)) -> list[Body]:
@@ -141,8 +143,8 @@ class ColdLeaf:
             arm = slab((x - 0.009, y, low), (x + 0.017, 0.001, high))
             nose = cylinder(0.009, PLATE, segments=16).at(x, y, low)
             wide = slab((x - 0.009, -0.004, low), (x + 0.060, 0.001, high))
-            pin = cylinder(PIN, 0.009 + PLATE_PLAY, segments=12)
-            pin = pin.at(x, y, near if side < 0.0 else near - 0.009 - PLATE_PLAY)
+            pin = cylinder(PIN, 0.0075 + PLATE_PLAY, segments=10)
+            pin = pin.at(x, y, near if side < 0.0 else near - 0.0075 - PLATE_PLAY)
             box = slab((x - 0.009, y - 0.009, low), (x + 0.017, 0.0, high))
             body = Body(
                 solid=union([arm, nose, wide, pin]), surface=surface, density=STEEL,
@@ -175,6 +177,14 @@ class ColdLeaf:
             if max(self.swung(x, y, angle)[0] for x, y in corners) <= beside:
                 return float(angle)
         return math.radians(176.0)
+
+    def widest(self) -> float:
+        """rad; how far it turns before the hinge's edge meets the corner of the case beside it."""
+        x, y = self.pin
+        for angle in np.radians(np.arange(80.0, 175.0, 0.5)):
+            if x - x * math.cos(angle) + y * math.sin(angle) > -0.0018:
+                return float(angle) - math.radians(0.5)
+        return math.radians(175.0)
 
     def free_reach(self, y: float, *, beside: float) -> float:
         """The largest x of what stands out to depth `y` and turns past a wall at x = `beside`."""
@@ -224,5 +234,5 @@ class ColdLeaf:
     def _outline(self, inset: float) -> Floats:
         """(z, x) of a rounded rectangle inside the leaf's edges."""
         high, wide = self.length - 2.0 * inset, self.width - 2.0 * inset
-        outline = rounded_rectangle(high, wide, 0.012, segments=2)
+        outline = rounded_rectangle(high, wide, 0.012, segments=1)
         return np.asarray(outline + np.array([self.length / 2.0, self.width / 2.0]))

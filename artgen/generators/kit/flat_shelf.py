@@ -49,10 +49,9 @@ class FlatShelf:
         """The shelf; `plate` is glass, wire or wood, `trim` what edges it."""
         return FORMS[self.style](self, plate, trim)
 
-    def contact(self) -> Solid:
-        """One box."""
-        return slab((self.left, self.front, self.top - self.depth),
-                    (self.right, self.back, self.top))  # fmt: skip
+    def contact(self, deep: float) -> Solid:
+        """One box, `deep` m below its upper side."""
+        return slab((self.left, self.front, self.top - deep), (self.right, self.back, self.top))
 
     def ledges(self, walls: tuple[float, float], surface: str) -> tuple[Body, ...]:
         """Ribs on both walls (x) under the shelf."""
@@ -97,7 +96,7 @@ def _glass(s: FlatShelf, plate: str, trim: str) -> tuple[Body, ...]:
         slab((s.left, s.front, s.top - s.depth), (s.right, s.front + 0.014, s.top + 0.0010)),
         slab((s.left, s.back - 0.012, s.top - s.depth), (s.right, s.back, s.top + 0.010)),
     ])  # fmt: skip
-    sheet = Body(solid=pane, surface=plate, density=GLASS, collision=(s.contact(),))
+    sheet = Body(solid=pane, surface=plate, density=GLASS, collision=(s.contact(0.0045),))
     return sheet, Body(solid=bars - pane, surface=trim, density=ABS, edge=0.001)
 
 
@@ -112,7 +111,7 @@ def _wire(s: FlatShelf, plate: str, trim: str) -> tuple[Body, ...]:
     made += [wire([(x, y0 - 0.5 * r, z), (x, y1 + 0.5 * r, z)], r, sides=5) for x in lanes]
     stays = np.linspace(y0, y1, 4)[1:-1]
     made += [wire([(x0, y, low), (x1, y, low)], r, sides=5) for y in stays]
-    body = Body(solid=union(made), surface=plate, density=STEEL, collision=(s.contact(),))
+    body = Body(solid=union(made), surface=plate, density=STEEL, collision=(s.contact(2.6 * r),))
     return (body,)
 
 
@@ -129,8 +128,8 @@ def _slats(s: FlatShelf, plate: str, trim: str) -> tuple[Body, ...]:
              for x in np.linspace(x0 + 0.016, x1 - 0.016, s.wires)]  # fmt: skip
     made += [wire([(x0, y, low), (x1, y, low)], r, sides=5)
              for y in np.linspace(y0, y1, 4)[1:-1]]  # fmt: skip
-    grid = Body(solid=union(made), surface=trim, density=STEEL, collision=(s.contact(),))
-    return grid, Body(solid=front, surface=plate, density=OAK, edge=0.0015)
+    grid = Body(solid=union(made), surface=trim, density=STEEL, collision=(s.contact(2.6 * r),))
+    return grid, Body(solid=front, surface=plate, density=OAK, edge=0.0015, collision=(front,))
 
 
 FORMS: Mapping[ShelfStyle, Callable[[FlatShelf, str, str], tuple[Body, ...]]] = {

@@ -8,7 +8,6 @@ from artgen.articulation.types import Body, DraftPart, Joint, Latch, Preconditio
 from artgen.core.surface import SurfaceSpec
 from artgen.generators.kit import cold_fittings as fittings
 from artgen.generators.kit.bottles import CONTAINERS, ranks, stand
-from artgen.generators.kit.cold_leaf import ColdLeaf
 from artgen.generators.kit.control_console import PanelPlane
 from artgen.generators.kit.density import ABS
 from artgen.generators.kit.flat_shelf import FlatShelf
@@ -95,15 +94,8 @@ def _rules(
         if zone.closing == "pair" and alone and not same_side:
             continue
         rules.append(Precondition(joint=joint.name, requires=f"{leaf.name}_hinge",
-                                  at_least=clear_at(p, zone, leaf, low, high)))  # fmt: skip
+                                  at_least=p.needed(zone, leaf)))  # fmt: skip
     return tuple(rules)
-
-
-def clear_at(p: FridgeParams, zone: Zone, leaf: ColdLeaf, low: float, high: float) -> float:
-    """Angle, rad, at which a door is out of the way of a bin between two x."""
-    corner = leaf.corner[0]
-    beside = low - corner if leaf.hinge == "left" else corner - high
-    return leaf.clearing_angle(p.door_of(leaf, zone).corners(), beside=beside - 0.004)
 
 
 def _runners(room: LinedCavity, front: float, back: float, z: float, p: FridgeParams) -> list[Body]:
@@ -120,7 +112,7 @@ def _shelves(p: FridgeParams, zone: Zone, room: LinedCavity, bottom: float) -> I
     fridge = zone.cold == "fridge"
     start = max(bottom, p.case.step[1] if z0 < p.case.step[1] else bottom)
     tall = z1 - start - (fittings.BAR if fridge else 0.0)
-    count = max(1 if fridge else 1, min(4, round(tall / p.shelf_pitch) - (1 if fridge else 0)))
+    count = max(1, min(4 if fridge else 2, round(tall / p.shelf_pitch) - (1 if fridge else 0)))
     if tall < 0.30 and fridge:
         count = 0
     made: list[Body] = []
@@ -130,7 +122,7 @@ def _shelves(p: FridgeParams, zone: Zone, room: LinedCavity, bottom: float) -> I
         z = start + tall * (k + (1.0 if fridge else 0.6)) / (count + (1.0 if fridge else 0.6))
         shelf = FlatShelf(
             left=x0 + 0.0015, right=x1 - 0.0015, front=p.inside_front(zone), back=y1 - 0.002,
-            top=z + 0.02 * (share - 0.5), style="glass" if fridge else "wire", wires=12,
+            top=z + 0.02 * (share - 0.5), style="glass" if fridge else "wire", wires=10,
         )  # fmt: skip
         made += [*shelf.bodies("glass" if fridge else "wire", "shelf_trim"),
                  *shelf.ledges((x0, x1), "liner")]  # fmt: skip
@@ -145,7 +137,7 @@ def _groceries(p: FridgeParams, zone: Zone, room: LinedCavity, levels: list[floa
     made: list[Body] = []
     (x0, _, _), (x1, y1, z1) = room.low, room.high
     for k, z in enumerate(levels):
-        kind = p.groceries[k % len(p.groceries)]
+        kind = p.groceries[k % len(p.groceries)] if k < 3 else "none"
         above = levels[k + 1] - 0.026 if k + 1 < len(levels) else z1 - fittings.BAR - 0.01
         if kind == "none" or above - z < CONTAINERS[kind].height + 0.012:
             continue
@@ -168,7 +160,7 @@ def bottles_in(p: FridgeParams, zone: Zone, door: InsulatedDoor) -> list[Body]:
     (x0, x1), leaf = door.sides, door.leaf
     if zone.cold == "freezer":
         return made
-    for k, ((z, _), kind) in enumerate(zip(door.bins, p.groceries[1:], strict=False)):
+    for k, ((z, _), kind) in enumerate(zip(door.bins, reversed(p.groceries), strict=False)):
         above = door.bins[k + 1][0] if k + 1 < len(door.bins) else door.high - 0.05
         if kind == "none" or above - z < CONTAINERS[kind].height + 0.01:
             continue
@@ -192,6 +184,8 @@ def _light(p: FridgeParams, zone: Zone, room: LinedCavity) -> Inside:
 
 def _control(p: FridgeParams, zone: Zone, room: LinedCavity) -> Inside:
     """A knob or a display on a bar under the ceiling, behind the bins of the door."""
+    if not p.has_control:
+        return Inside()
     front = p.inside_front(zone) + 0.012
     bar = fittings.control_bar(room, "trim", front=front)
     lit = fittings.light(room, "top", front=front)

@@ -35,6 +35,8 @@ LEVEL_SEAM = 0.0115
 """m; between doors above each other, where the hinge plates lie."""
 RUNNER = 0.012
 """m; room for runners beside bins and baskets."""
+STOP = 0.035
+"""rad that a door opens further than what slides out behind it needs."""
 AIR = 0.012
 """m; between what is on a door and what stands in the room."""
 
@@ -73,6 +75,7 @@ class FridgeParams:
     gap: float
     door: float
     inset: float
+    setback: float
     corner: float
     freezer_share: float
     hinge_left: bool
@@ -204,7 +207,7 @@ class FridgeParams:
         return ColdLeaf(
             name=name, hinge=hinge, corner=(span[0] if hinge == "left" else span[1], 0.0, low),
             width=span[1] - span[0], length=high - low, thickness=self.door, gap=self.gap,
-            inset=self.inset, seal_inset=self.inset + 0.0015,
+            inset=self.inset, setback=self.setback, seal_inset=self.inset + 0.0015,
         )  # fmt: skip
 
     def pull_of(self, leaf: ColdLeaf, zone: Zone) -> DoorPull:
@@ -248,7 +251,7 @@ class FridgeParams:
         )
 
     def _has_drawers(self, zone: Zone) -> bool:
-        tall = zone.cell[1][1] - zone.cell[0][1] > 0.45
+        tall = zone.cell[1][1] - zone.cell[0][1] > 0.45 and zone.name != "right_freezer"
         return self.freezer_inside == "drawers" and zone.closing == "door" and tall
 
     def inside_front(self, zone: Zone) -> float:
@@ -266,6 +269,16 @@ class FridgeParams:
         stepped = room.low[2] < self.case.step[1] - 0.01 and low < self.case.step[1]
         return (self.case.step[0] if stepped else room.high[1]) - 0.0025
 
+    def needed(self, zone: Zone, leaf: ColdLeaf) -> float:
+        """Angle, rad, at which a door is out of the way of what slides out next to its hinge."""
+        beside = leaf_wall(zone, self.room(zone), leaf) + RUNNER
+        return leaf.clearing_angle(self.door_of(leaf, zone).corners(), beside=beside - 0.004)
+
+    @property
+    def has_control(self) -> bool:
+        """A knob or a display inside; none where the door carries one."""
+        return not (self.has_dispenser or self.panel)
+
     @property
     def opening(self) -> float:
         """rad."""
@@ -277,9 +290,25 @@ class FridgeParams:
         return self.dispenser and self.layout in ("side_by_side", "french", "four_door")
 
 
+def leaf_wall(zone: Zone, room: LinedCavity, leaf: ColdLeaf) -> float:
+    """x of the room's wall at the hinge, in the leaf's drawing."""
+    corner = leaf.corner[0]
+    return room.low[0] - corner if leaf.hinge == "left" else corner - room.high[0]
+
+
 def doors_hold_bins(p: FridgeParams) -> bool:
     """Every room is deep enough for a shelf behind the bins."""
     return p.size[1] - p.wall - p.bin_depth > 0.26
+
+
+def doors_open_far_enough(p: FridgeParams) -> bool:
+    """Doors turn out of the way of crispers and drawers before they meet the case."""
+    return all(
+        p.needed(zone, leaf) + STOP <= leaf.widest()
+        for zone in p.zones
+        if zone.closing != "drawer"
+        for leaf in p.leaves(zone)
+    )
 
 
 def freezer_holds_something(p: FridgeParams) -> bool:

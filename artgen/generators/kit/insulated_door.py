@@ -71,7 +71,7 @@ class InsulatedDoor:
     def _shell(self) -> list[Body]:
         d = self.leaf
         y0, y1 = d.front, d.back - LINER
-        skin = slab((0.0, y0, CAP), (d.width, y1, d.length - CAP)) - d.bores()
+        skin = slab((0.0, y0, CAP), (d.width, y1, d.length - CAP))
         caps = union([
             slab((0.001, y0 + 0.001, 0.0), (d.width - 0.001, y1, CAP)),
             slab((0.001, y0 + 0.001, d.length - CAP), (d.width - 0.001, y1, d.length)),
@@ -81,13 +81,13 @@ class InsulatedDoor:
         whole = d.slab(front=y0, back=d.back)
         return [
             Body(solid=skin, surface="front", density=self.foam, edge=0.005, collision=(whole,)),
-            Body(solid=caps, surface="cap", density=ABS, edge=0.0015),
+            Body(solid=caps, surface="cap", density=ABS),
         ]
 
     def _inside(self) -> list[Body]:
         """The liner's plate and its rim."""
         d, (x0, x1) = self.leaf, self.sides
-        plate = d.slab(front=d.back - LINER, back=d.back, inset=0.002) - d.bores()
+        plate = d.slab(front=d.back - LINER, back=d.back, inset=0.002)
         z0, z1, y = self.low + AIR, self.high - AIR, d.back - 0.001
         bars = (
             slab((x0, y, z0), (x0 + RIM, self.rim, z1)),
