@@ -5,7 +5,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from artgen.articulation.types import Limit
+from artgen.core.mesh import Floats
 from artgen.generators.kit.lamp_arm import ArmStyle, LampArm
 from artgen.generators.kit.lamp_base import LampBase, PlateStyle
 from artgen.generators.kit.lamp_head import HeadStyle, LampHead
@@ -14,6 +17,8 @@ from artgen.generators.kit.spring_balance import leaning
 Point = tuple[float, float]
 SOCKET = 0.0235
 """m; radius of a socket's cover."""
+PLATE_HALF = 0.0190
+"""m; half the height of the plates that hold an arm's two rods."""
 ARM_HALF = 0.0130
 """m; half the thickness of an arm near the head."""
 
@@ -90,6 +95,11 @@ class DeskLampParams:
         )
 
     @property
+    def shade(self) -> Floats:
+        """(N, 2) radius and height below the head's joint of the shade's outside; none for bars."""
+        return self.lamp_head.profile() if self.head != "bar" else np.zeros((0, 2))
+
+    @property
     def leans(self) -> tuple[float, float]:
         """How far lower and upper arm lean forward at rest, rad."""
         return -math.radians(self.back_deg), math.radians(90.0 + self.dip_deg)
@@ -138,7 +148,11 @@ def head_clears_a_rising_arm(p: DeskLampParams) -> bool:
     """Where the upper arm rises to the head, the neck keeps the head below it."""
     rise = math.radians(max(-p.dip_deg, 0.0))
     reach = p.bar_width if p.head == "bar" else SOCKET
-    return reach * math.tan(rise) + ARM_HALF / math.cos(rise) + 0.003 < p.neck
+    if reach * math.tan(rise) + ARM_HALF / math.cos(rise) + 0.003 >= p.neck:
+        return False
+    half = PLATE_HALF if p.arm == "parallel" else ARM_HALF
+    below = [reach * math.tan(rise) + half / math.cos(rise) + 0.004 for reach in p.shade[:, 0]]
+    return bool((-p.shade[:, 1] > below).all())
 
 
 def elbow_stays_open(p: DeskLampParams) -> bool:

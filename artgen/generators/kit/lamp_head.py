@@ -69,7 +69,7 @@ class LampHead:
             glow.piece(diffuser),
         ]
 
-    def _profile(self) -> Floats:
+    def profile(self) -> Floats:
         """(radius, height) of the shade's outside from its rim to the socket."""
         top, rim = -self.neck - 0.030, -self.neck - 0.030 - self.depth
         r0, r1 = self.radius, 0.0225
@@ -85,7 +85,7 @@ class LampHead:
         return np.c_[r0 + (r1 - r0) * share, rim + (top - rim) * share]
 
     def _shade(self, shade: Stock, inner: Stock, glow: Stock, metal: Stock) -> list[Body]:
-        profile = self._profile()
+        profile = self.profile()
         outline = np.concatenate([profile, (profile - (SHELL, 0.0))[::-1]])
         lip = profile[0] + np.array(
             [(-SHELL, 0.0), (0.0012, 0.0), (0.0012, 0.004), (-SHELL, 0.004)]
