@@ -90,6 +90,7 @@ def travelled(
     own = np.array([model.joint(joint.name).id for joint in joints])
     start, span = _course(joints, forward)
     data.qpos[own] = start
+    bring_followers(model, data)
     force = np.array([joint.effort for joint in joints]) * np.sign(span)
     top = np.array([joint.velocity for joint in joints])
     share = np.zeros(len(joints))
@@ -104,6 +105,20 @@ def travelled(
                 break
     trouble = ", ".join(warnings_of(data))
     return share.clip(max=1.0), f" (MuJoCo warns of {trouble})" if trouble else ""
+
+
+def bring_followers(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Put joints that an equality ties to another where that one is, as fast; one that would be
+    faster than `FASTEST` slows its leader."""
+    ties = np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_JOINT)
+    pairs = [(model.eq_obj1id[tie], model.eq_obj2id[tie], model.eq_data[tie, :5]) for tie in ties]
+    for _, leader, (_, ratio, *_) in pairs:
+        if leader >= 0 and abs(ratio * data.qvel[leader]) > FASTEST:
+            data.qvel[leader] *= FASTEST / abs(ratio * data.qvel[leader])
+    for own, leader, curve in pairs:
+        if leader >= 0:
+            data.qpos[own] = float(np.polyval(curve[::-1], data.qpos[leader]))
+            data.qvel[own] = curve[1] * data.qvel[leader]
 
 
 def _course(joints: Sequence[Joint], forward: bool) -> tuple[Floats, Floats]:
@@ -146,6 +161,7 @@ def overshoot(model: mujoco.MjModel, joints: Sequence[Joint], forward: bool) -> 
     stop, way = start + span, np.sign(span)
     data.qpos[own] = stop - way * np.minimum(RUN_UP * np.abs(span), RUN_UP)
     data.qvel[own] = way * np.minimum([joint.velocity for joint in joints], FASTEST)
+    bring_followers(model, data)
     beyond = np.zeros(len(joints))
     with simulating(model):
         model.opt.timestep = coarse_step(model)
