@@ -1,5 +1,6 @@
 """The control face of a toaster: where levers, dials and buttons sit, and the plate around them."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -128,7 +129,7 @@ class ToasterFace:
                 cap=0.0026,
                 ink=ink,
                 start=dial.start,
-                sweep=dial.sweep,
+                sweep=dial.sweep or 2.0 * math.pi,
             )
         for k, (u, v) in enumerate(self.keys):
             marks.append(words((u, v - 0.0087), FUNCTIONS[k][1], cap=0.0018, ink=ink))

@@ -14,8 +14,8 @@ from artgen.articulation.types import Draft, DraftPart, State
 from artgen.core.stream import Stream
 from artgen.finish import settle_overlaps
 from artgen.generators.dishwasher import INVARIANTS, PARAMS, build
-from artgen.generators.kit.dishwasher_layout import ENTRY, DishwasherParams, layout
 from artgen.generators.kit.counterbalance import net_torque, weighed
+from artgen.generators.kit.dishwasher_layout import ENTRY, DishwasherParams, layout
 from artgen.geometry.clearance import Shape, shape_of_solids
 from artgen.geometry.solid import Solid, slab, union
 from artgen.rules import Sampled, load_rule, sample

@@ -15,8 +15,8 @@ from artgen.core.stream import Stream
 from artgen.core.transform import apply
 from artgen.finish import settle_overlaps
 from artgen.generators.kit.counterbalance import weighed
-from artgen.generators.laptop import INVARIANTS, PARAMS, build
 from artgen.generators.kit.laptop_layout import ASPECTS, STYLES, Layout
+from artgen.generators.laptop import INVARIANTS, PARAMS, build
 from artgen.geometry.clearance import Mover, overlaps, shape_of_solids
 from artgen.geometry.solid import Solid, union
 from artgen.rules import Sampled, load_rule, sample
