@@ -99,7 +99,7 @@ class LampArm:
         return [*pieces, cable.piece(self._cable())]
 
     def _rods(self) -> tuple[Solid, tuple[Solid, ...]]:
-        low, high = 0.030, self.length - WEB - 0.012
+        low, high = 0.030, self.length - WEB - 0.020
         plate = slab(
             (-TONGUE / 2, -SPACING - 0.006, low - 0.002), (TONGUE / 2, SPACING + 0.006, low + 0.012)
         )
