@@ -81,7 +81,7 @@ class ColdCase:
         steps = [self._step_in(room) for _, room in cells if room.low[2] < self.step[1] - 0.01]
         made += [
             Body(solid=step - niche, surface=liner, density=3.0 * self.density, edge=0.002,
-                 collision=(step,))
+                 collision=self._around_niche([step]))
             for step in steps
         ]  # fmt: skip
         return made
@@ -91,7 +91,12 @@ class ColdCase:
         pieces = [slab((-self.half, self.toe_depth, self.foot), (self.half, self.depth, lowest))]
         for ((x0, z0), (x1, z1)), room in cells:
             pieces += room.walls((x0, 0.0, z0), (x1, self.depth, z1))
-        return tuple(pieces)
+        return self._around_niche(pieces)
+
+    def _around_niche(self, pieces: list[Solid]) -> tuple[Solid, ...]:
+        """The cuboids' remains before, beside and above the niche, which stays open."""
+        niche = self._niche_room()
+        return tuple(rest for piece in pieces for rest in boxes_outside(piece, niche))
 
     def _step_in(self, room: LinedCavity) -> Solid:
         y, z = self.step
@@ -122,7 +127,17 @@ class ColdCase:
         works = union([pot, pipe])
         return [
             Body(solid=rail, surface=metal, density=STEEL),
-            Body(solid=works, surface=metal, density=mass / works.volume),
+            Body(
+                solid=works,
+                surface=metal,
+                density=mass / works.volume,
+                collision=(
+                    box(
+                        (1.4 * radius, 1.4 * radius, 0.9 * tall),
+                        at=(0.25 * self.half, y, self.foot + 0.005),
+                    ),
+                ),
+            ),
         ]
 
     def feet(self, surface: str, *, radius: float) -> list[Body]:
@@ -173,3 +188,20 @@ class ColdCase:
         rungs = [slab((x - 0.001, start, low - 0.01), (x + 0.001, end, high + 0.01))
                  for x in np.linspace(-0.8 * wide, 0.8 * wide, 4)]  # fmt: skip
         return [Body(solid=union([tube, *rungs]), surface=surface, density=STEEL)]
+
+
+def boxes_outside(piece: Solid, hole: Solid) -> list[Solid]:
+    """The cuboids that remain of a cuboid around another, at most six."""
+    (low, high), (start, end) = piece.bounds, hole.bounds
+    if (start >= high).any() or (end <= low).any():
+        return [piece]
+    rest = []
+    for axis in range(3):
+        for first, last in ((low[axis], start[axis]), (end[axis], high[axis])):
+            if last - first > 1e-4 and first >= low[axis] and last <= high[axis]:
+                a, b = low.copy(), high.copy()
+                a[axis], b[axis] = first, last
+                rest.append(slab(a, b))
+        low, high = low.copy(), high.copy()
+        low[axis], high[axis] = max(low[axis], start[axis]), min(high[axis], end[axis])
+    return rest

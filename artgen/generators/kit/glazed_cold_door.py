@@ -80,7 +80,7 @@ class GlazedDoor:
         outer = d.slab(front=face, back=split) - opening - d.bores()
         for room in self.works.room():
             outer = outer - room
-        inner = d.slab(front=split, back=d.back, inset=0.0015) - opening
+        inner = d.slab(front=split, back=d.back, inset=0.0015) - opening - d.bores()
         return [
             Body(solid=outer, surface="frame", density=0.34 * ALUMINIUM, edge=0.0022,
                  collision=self._contact()),

@@ -112,7 +112,7 @@ class InsulatedDoor:
             slab((x1 - e, y0, z), (x1, y1, z + 0.7 * height)),
         )
         rail = slab((x0, y1 - 2.2 * e, z + height - 0.006), (x1, y1, z + height))
-        return Body(solid=union([*pieces, rail]), surface="bin", density=ABS, edge=0.0012,
+        return Body(solid=union([*pieces, rail]), surface="bin", density=ABS,
                     collision=pieces)  # fmt: skip
 
 
