@@ -120,7 +120,7 @@ class IceDispenser:
     @property
     def _hinge(self) -> tuple[float, float, float]:
         x0, x1, _, z1 = self._mouth
-        return (x0 + x1) / 2.0, self.leaf.front + 0.0225, z1 - 0.032
+        return (x0 + x1) / 2.0, self.leaf.front + 0.0225, z1 - 0.0465
 
 
 def _spread(low: float, high: float, count: int) -> list[float]:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from artgen.articulation.types import Body
+from artgen.generators.kit.cold_case import boxes_outside
 from artgen.generators.kit.cold_leaf import SEAL_PLAY, ColdLeaf
 from artgen.generators.kit.density import ABS
 from artgen.generators.kit.door_pull import DoorPull
@@ -78,9 +79,13 @@ class InsulatedDoor:
         ]) - d.bores()  # fmt: skip
         for room in (*self.pull.room(), *self.holes):
             skin, caps = skin - room, caps - room
-        whole = d.slab(front=y0, back=d.back)
+        contact = [d.slab(front=y0, back=d.back)]
+        for hole in self.holes:
+            contact = [rest for piece in contact for rest in boxes_outside(piece, hole)]
         return [
-            Body(solid=skin, surface="front", density=self.foam, edge=0.005, collision=(whole,)),
+            Body(
+                solid=skin, surface="front", density=self.foam, edge=0.005, collision=tuple(contact)
+            ),
             Body(solid=caps, surface="cap", density=ABS),
         ]
 
