@@ -114,7 +114,7 @@ Shape = tuple[Solid, tuple[Solid, ...]]
 """Visible solid and convex contact pieces of one side; the face is y = 0, the spindle at 0, 0."""
 
 
-def _neck(h: LeverSet, reach: float) -> tuple[Solid, Solid]:
+def _neck(reach: float) -> tuple[Solid, Solid]:
     """A round neck out of the rose, and the box inside it that stays clear of the rose."""
     bar = cylinder(NECK, reach - 0.002, axis="y", segments=20).at(0.0, -reach, 0.0)
     half = 0.7 * NECK
@@ -123,7 +123,7 @@ def _neck(h: LeverSet, reach: float) -> tuple[Solid, Solid]:
 
 def _bent(h: LeverSet, path: Floats, sides: int) -> Shape:
     """A round lever along a path from the neck to its end, contact pieces along its legs."""
-    neck, core = _neck(h, h.standoff)
+    neck, core = _neck(h.standoff)
     r = h.radius
     ends = np.linspace(0, len(path) - 1, min(2, len(path) - 1) + 1).round().astype(int).tolist()
     legs = tuple(wire(path[i : j + 1], 0.95 * r, sides=6).hull() for i, j in pairwise(ends))
@@ -131,7 +131,7 @@ def _bent(h: LeverSet, path: Floats, sides: int) -> Shape:
 
 
 def _round(h: LeverSet) -> Shape:
-    neck, core = _neck(h, h.standoff)
+    neck, core = _neck(h.standoff)
     r, path = 0.9 * h.radius, np.array([(NECK, -h.standoff, 0.0), (-h.length, -h.standoff, 0.0)])
     bar = slab((-h.length, -h.standoff - r, -r), (NECK, -h.standoff + r, r))
     return union([wire(path, h.radius, sides=14), neck]), (core, bar)
@@ -143,7 +143,7 @@ def _return(h: LeverSet) -> Shape:
     corner = arc((-h.length + 2.0 * r, -h.standoff + 2.0 * r), 2.0 * r, -math.pi / 2, -math.pi, 4)
     plan = np.concatenate([[(NECK, -h.standoff)], corner, [(-h.length, back)]])
     path = np.c_[plan, np.zeros(len(plan))]
-    neck, core = _neck(h, h.standoff)
+    neck, core = _neck(h.standoff)
     bar = slab((-h.length, -h.standoff - 0.8 * r, -0.8 * r), (NECK, -h.standoff + 0.8 * r, 0.8 * r))
     end = slab((-h.length - 0.8 * r, -h.standoff, -0.8 * r), (-h.length + 0.8 * r, back, 0.8 * r))
     return union([wire(path, r, sides=12), neck]), (core, bar, end)
@@ -160,7 +160,7 @@ def _curved(h: LeverSet) -> Shape:
 
 def _flat(h: LeverSet) -> Shape:
     """A flat bar on a round neck."""
-    neck, core = _neck(h, h.standoff)
+    neck, core = _neck(h.standoff)
     r = h.radius
     bar = slab(
         (-h.length, -h.standoff - 0.6 * r, -1.15 * r), (1.15 * r, -h.standoff + 0.6 * r, 1.15 * r)
@@ -176,7 +176,7 @@ def _knob(h: LeverSet) -> Shape:
         [[(0.0, 0.002), (NECK, 0.002), (NECK, 0.3 * out)], dome, [(0.0, dome[-1, 1])]]
     )
     solid = revolve(outline, axis="y", segments=28).mirrored("y")
-    core = _neck(h, 0.42 * out)[1]
+    core = _neck(0.42 * out)[1]
     crown = revolve([(0.0, dome[0, 1]), *dome.tolist(), (0.0, dome[-1, 1])], segments=12)
     return solid, (core, upright(crown, "y").mirrored("y").hull())
 

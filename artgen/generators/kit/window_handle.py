@@ -155,11 +155,10 @@ class CamLock:
         )
 
 
-def finger_lift(x: float, y: float, z: float, *, metal: Stock) -> tuple[Body, Solid]:
-    """A hook for two fingers on a rail's face, and the box around it."""
+def finger_lift(x: float, y: float, z: float, *, metal: Stock) -> Body:
+    """A hook for two fingers on a rail's face."""
     plate = slab((x - 0.026, y - 0.003, z - 0.012), (x + 0.026, y, z + 0.012))
     hook = slab((x - 0.024, y - 0.022, z - 0.012), (x + 0.024, y - 0.003, z - 0.008))
     lip = slab((x - 0.024, y - 0.022, z - 0.012), (x + 0.024, y - 0.018, z - 0.002))
     pieces = (plate, hook, lip)
-    whole = union(pieces)
-    return metal.piece(whole, contact=pieces), whole
+    return metal.piece(union(pieces), contact=pieces)

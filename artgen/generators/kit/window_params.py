@@ -118,7 +118,7 @@ def sash_maker(p: WindowParams) -> SashMaker:
         stock=replace(profile(p), edge=0.0025),
         pane=Stock(surface="glass", density=GLASS, edge=0.0),
         seal=SEAL,
-        spacer=replace(SHEET),
+        spacer=SHEET,
         member=p.sash_member,
         bars=(p.standing_bars, p.lying_bars),
         unit=p.unit,

@@ -242,23 +242,12 @@ def hung_sashes(
     lock = CamLock(
         at=(0.0, (near + inner) / 2.0, low.z1), reach=outer + 0.0025 - (near + inner) / 2.0
     )
-    lifts, grips = [], []
-    for x, side in ((-0.28 * o.width, "left"), (0.28 * o.width, "right")):
-        lifts.append(finger_lift(x, near, o.z0 + half, metal=fit.metal)[0])
-        grips.append(
-            Grip(
-                name=f"lift_{side}",
-                kind="handle",
-                position=(x, near - 0.012, o.z0 + half),
-                outward=(0.0, -1.0, 0.0),
-                pull=(0.0, 0.0, 1.0),
-            )
-        )
+    lifts, grips = _lifts(o, near, o.z0 + half, fit.metal)
     lower = DraftPart(
         name="sash_lower",
         label="sash",
         bodies=(*maker.sash(low, near, inner), lock.base(fit.metal), *lifts),
-        grips=tuple(grips),
+        grips=grips,
     )
     keeper = lock.keeper(fit.metal, front=outer, rear=outer + 0.008)
     rail = Grip(
@@ -287,6 +276,24 @@ def hung_sashes(
     return Sashes(
         parts=(lower, upper, lock.part("sash_lock", fit.metal)), joints=joints, rules=rules
     )
+
+
+def _lifts(
+    opening: Rect, face: float, z: float, metal: Stock
+) -> tuple[list[Body], tuple[Grip, ...]]:
+    """Two finger lifts on the lower rail, and where hands take them."""
+    places = ((-0.28 * opening.width, "left"), (0.28 * opening.width, "right"))
+    grips = tuple(
+        Grip(
+            name=f"lift_{side}",
+            kind="handle",
+            position=(x, face - 0.012, z),
+            outward=(0.0, -1.0, 0.0),
+            pull=(0.0, 0.0, 1.0),
+        )
+        for x, side in places
+    )
+    return [finger_lift(x, face, z, metal=metal) for x, _ in places], grips
 
 
 def sliding_sashes(
