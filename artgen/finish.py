@@ -13,7 +13,7 @@ from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, Ints, TriMesh
 from artgen.core.surface import SurfaceSpec
 from artgen.geometry.measure import combined, moments, open_edges, welded
-from artgen.geometry.mend import without_flat_triangles
+from artgen.geometry.mend import without_crumbs, without_flat_triangles
 from artgen.geometry.solid import AXES, Solid, union
 from artgen.geometry.unwrap import atlas_uv, flat_uv, metric_uv
 
@@ -125,7 +125,7 @@ def _closed(part: DraftPart, body: Body, mesh: tuple[Floats, Ints]) -> tuple[Flo
             f"part {part.name}: a body of {body.surface} has {count} open edges after finishing; "
             "its solid has features thinner than 1e-7 m"
         )
-    return without_flat_triangles(*mesh)
+    return without_flat_triangles(*without_crumbs(*mesh))
 
 
 def _joined(

@@ -2,12 +2,42 @@
 
 import manifold3d as m3
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, Ints
 
 FLAT = 2e-14
 """m2, twice the area of half a square of the grid's step, 1e-7 m."""
+
+
+CRUMB = 1e-11
+"""m3; a cube of 0.2 mm. Booleans of nearly equal surfaces leave slivers of 1e-20 to 1e-12."""
+
+BUBBLE = 1e-10
+"""m3; a hollow smaller than a cube of 0.5 mm is a sliver that came out inside out, or might be."""
+
+
+def without_crumbs(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
+    """A closed surface less its pieces of next to no volume, which no eye sees and which, once
+    rounded, wind either way; a surface that is all crumbs, or has none, is returned as it is."""
+    links = coo_array(
+        (np.ones(2 * len(faces)), (np.repeat(faces[:, 0], 2), faces[:, 1:].ravel())),
+        shape=(len(vertices), len(vertices)),
+    )
+    count, label = connected_components(links, directed=False)
+    if count == 1:
+        return vertices, faces
+    piece = label[faces[:, 0]]
+    a, b, c = (vertices[faces] - vertices[0]).transpose(1, 0, 2)
+    volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+    size = np.bincount(piece, weights=volumes, minlength=count)
+    kept = faces[((size > CRUMB) | (size < -BUBBLE))[piece]]
+    if len(kept) in (0, len(faces)):
+        return vertices, faces
+    used, index = np.unique(kept, return_inverse=True)
+    return vertices[used], index.reshape(-1, 3).astype(faces.dtype)
 
 
 def without_flat_triangles(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:

@@ -6,7 +6,8 @@ import pytest
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, Ints
 from artgen.geometry.measure import moments, open_edges
-from artgen.geometry.mend import without_flat_triangles
+from artgen.geometry.mend import without_crumbs, without_flat_triangles
+from artgen.geometry.solid import box, union
 
 TETRAHEDRON = np.array([(0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.1)])
 
@@ -48,3 +49,19 @@ def test_an_open_surface_is_refused() -> None:
     vertices, faces = with_flat_triangle(0.05)
     with pytest.raises(GeometryError, match="cannot be mended"):
         without_flat_triangles(vertices, faces[:-1])
+
+
+def test_crumbs_are_dropped_and_nothing_else() -> None:
+    """Beside a box with a cavity, which is no crumb: a grain of 1 mm, a sliver of 1e-13 m3."""
+    body = box((0.1, 0.1, 0.1)) - box((0.05, 0.05, 0.05)).at(z=0.02)
+    grain = box((1e-3, 1e-3, 1e-3)).at(x=0.2)
+    sliver = box((1e-3, 1e-4, 1e-6)).at(x=0.3)
+    sound, crumbed = union([body, grain]).trimesh(), union([body, grain, sliver]).trimesh()
+    vertices, faces = without_crumbs(crumbed.vertices, crumbed.faces)
+    assert (len(vertices), len(faces)) == (len(sound.vertices), len(sound.faces))
+    assert vertices[:, 0].max() < 0.25
+    same = without_crumbs(sound.vertices, sound.faces)
+    assert same[0] is sound.vertices
+    assert same[1] is sound.faces
+    alone = sliver.trimesh()
+    assert without_crumbs(alone.vertices, alone.faces)[1] is alone.faces
