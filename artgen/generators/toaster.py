@@ -23,7 +23,7 @@ from artgen.textures.appliance_panel import BRANDS
 PARAMS = ToasterParams
 COVERS = {"one_piece": "plastic", "wrap": "sheet", "retro": "painted"}
 """Surface of the shell by style."""
-WALLS: Mapping[str, float] = {"one_piece": 250.0, "wrap": 400.0, "retro": 420.0}
+WALLS: Mapping[str, float] = {"one_piece": 150.0, "wrap": 230.0, "retro": 260.0}
 """kg/m3 of the walls: shell, air and works together, so that masses come out as in the sheets."""
 INK = ("#26282b", "#e9ebec")
 BADGE = (0.050, 0.012)
@@ -66,10 +66,10 @@ def _base(p: ToasterParams, dials: list[Dial], buttons: list[PushButton]) -> Dra
     ]
     cover = Stock(surface=COVERS[p.style], density=WALLS[p.style], edge=0.0012)
     caps = Stock(surface="trim", density=WALLS["one_piece"], edge=0.0015)
-    plinth = Stock(surface="metal" if p.style == "retro" else "trim", density=300.0, edge=0.001)
+    plinth = Stock(surface="metal" if p.style == "retro" else "trim", density=180.0, edge=0.001)
     bodies = [
         *shell.bodies(cover, caps, plinth, _stock("metal", 3000.0, 0.0005), "rubber", cuts),
-        *chamber.inside(_stock("mica", 2600.0, 0.0), "wound", _stock("inner", STEEL, 0.0),
+        *chamber.inside(_stock("mica", 1100.0, 0.0), "wound", _stock("inner", STEEL, 0.0),
                         rows=p.rows, guards=p.guards * (2 if p.form.startswith("long") else 1)),
         face.cover(dials, buttons, radius=0.006, sunk=0.003 if p.style == "wrap" else 0.0005),
         _badge(p),

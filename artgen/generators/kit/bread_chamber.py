@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from artgen.geometry.solid import Solid, prism, slab, union, upright, wire
 
 BOARD = 0.0016
 """m; a mica board with the wire on its two faces counts as one plate."""
+SHEETING = 3200.0
+"""kg/m3; steel of 0.4 mm drawn 1 mm thick."""
 GUARD = 0.0011
 """m; radius of the guard wires."""
 BESIDE = 0.0095
@@ -109,9 +111,9 @@ class BreadChamber:
             for y in self._boards()
         ]
         wires = union(self._windings(rows, (low + 0.012, high - 0.012)))
-        winding = Body(solid=wires, surface=glow, density=8400.0)
+        winding = Body(solid=wires, surface=glow, density=2600.0)
         bars = steel.piece(union(self._guards(guards, (low, high))))
-        return [*self._liner(steel), *boards, winding, bars]
+        return [*self._liner(replace(steel, density=SHEETING)), *boards, winding, bars]
 
     def _liner(self, steel: Stock) -> list[Body]:
         """The walls at the sides and at the end away from the lever."""

@@ -15,7 +15,7 @@ SLICE = 0.108
 
 def toaster_works(p: ToasterParams, trim: str) -> tuple[list[DraftPart], list[Joint]]:
     """Tray, levers and carriages; thumb pieces wear the surface `trim`."""
-    sheet = Stock(surface="inner", density=STEEL, edge=0.0008)
+    sheet = Stock(surface="inner", density=0.5 * STEEL, edge=0.0008)
     thumb = Stock(surface=trim, density=ABS, edge=0.0008)
     levers = [_lever(p, k) for k in range(len(p.served))]
     carriages = [_carriage(p, k, lever.name) for k, lever in enumerate(levers)]
