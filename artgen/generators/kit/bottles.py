@@ -39,15 +39,14 @@ class Container:
 JAR = ((0.92, 0.0), (1.0, 0.04), (1.0, 0.76), (0.88, 0.84), (0.88, 1.0))
 LONGNECK = ((0.90, 0.0), (1.0, 0.02), (1.0, 0.56), (0.80, 0.66), (0.48, 0.75), (0.42, 1.0))
 WINE = ((0.90, 0.0), (1.0, 0.02), (1.0, 0.60), (0.86, 0.67), (0.42, 0.74), (0.38, 1.0))
-PET = ((0.72, 0.0), (1.0, 0.06), (1.0, 0.30), (0.93, 0.36), (0.93, 0.56), (1.0, 0.62), (0.96, 0.72),
-       (0.40, 0.90), (0.40, 1.0))  # fmt: skip
+PET = ((0.74, 0.0), (1.0, 0.06), (1.0, 0.70), (0.42, 0.89), (0.40, 1.0))
 CAN = ((0.78, 0.0), (1.0, 0.06), (1.0, 0.90), (0.84, 0.97), (0.84, 1.0))
 CONTAINERS: Mapping[str, Container] = {
     "longneck": Container(radius=0.0305, height=0.229, profile=LONGNECK, label=(0.16, 0.46),
                           cap=0.955, density=1270.0),
     "wine": Container(radius=0.0375, height=0.300, profile=WINE, label=(0.14, 0.46), cap=0.80,
                       density=1330.0),
-    "pet": Container(radius=0.0325, height=0.232, profile=PET, label=(0.35, 0.57), cap=0.915,
+    "pet": Container(radius=0.0325, height=0.232, profile=PET, label=(0.30, 0.55), cap=0.915,
                      density=980.0),
     "jar": Container(radius=0.0370, height=0.112, profile=JAR, label=(0.14, 0.66), cap=0.86,
                      density=1250.0),

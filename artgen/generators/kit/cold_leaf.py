@@ -128,7 +128,7 @@ class ColdLeaf:
 
     def bores(self, depth: float = 0.0090) -> Solid:
         """Room for the pins in the leaf's ends."""
-        hole = cylinder(PIN + 0.001, depth + 0.01, segments=10)
+        hole = cylinder(PIN + 0.001, depth + 0.01, segments=8)
         return union([hole.at(*self.pin, z) for z in (-0.01, self.length - depth)])
 
     def hinge_plates(self, surface: str, *, ends: tuple[bool, bool] = (True, True)) -> list[Body]:
@@ -141,9 +141,9 @@ class ColdLeaf:
             near = z + side * PLATE_PLAY
             low, high = sorted((near, near + side * PLATE))
             arm = slab((x - 0.009, y, low), (x + 0.017, 0.001, high))
-            nose = cylinder(0.009, PLATE, segments=16).at(x, y, low)
+            nose = cylinder(0.009, PLATE, segments=10).at(x, y, low)
             wide = slab((x - 0.009, -0.004, low), (x + 0.060, 0.001, high))
-            pin = cylinder(PIN, 0.0075 + PLATE_PLAY, segments=10)
+            pin = cylinder(PIN, 0.0075 + PLATE_PLAY, segments=8)
             pin = pin.at(x, y, near if side < 0.0 else near - 0.0075 - PLATE_PLAY)
             box = slab((x - 0.009, y - 0.009, low), (x + 0.017, 0.0, high))
             body = Body(
