@@ -101,8 +101,8 @@ def base_hull(root: ET.Element) -> None:
 def latch_pushes(root: ET.Element) -> None:
     """A catch with the sign of a spring: it throws the part open."""
     tendons = ET.SubElement(root, "tendon")
-    catch = {"stiffness": "400", "springlength": "0.05 1e10"}
-    fixed = ET.SubElement(tendons, "fixed", name="catch", **catch)
+    catch = {"name": "catch", "stiffness": "400", "springlength": "0.05 1e10"}
+    fixed = ET.SubElement(tendons, "fixed", catch)
     ET.SubElement(fixed, "joint", joint=first(root, JOINT).get("name", ""), coef="1")
 
 
