@@ -30,7 +30,7 @@ BAR = 0.034
 COVER = 0.0065
 """m; thickness of the evaporator's cover at the back."""
 MOST_SLIDING = 6
-MOST_CONTAINERS = 36
+MOST_CONTAINERS = 28
 
 
 @dataclass(frozen=True, kw_only=True)

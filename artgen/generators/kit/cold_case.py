@@ -164,10 +164,10 @@ class ColdCase:
         wide, tall = 0.78 * half, 0.5 * (high - low) - 0.007
         middle = 0.5 * (low + high)
         if upright_bars:
-            pitch = 2.0 * wide / (4 * bars)
+            pitch = 2.0 * wide / (3 * bars)
             cuts = [slab((x - 0.28 * pitch, front - 0.01, middle - tall),
                          (x + 0.28 * pitch, front + 0.008, middle + tall))
-                    for x in -wide + pitch * (np.arange(4 * bars) + 0.5)]  # fmt: skip
+                    for x in -wide + pitch * (np.arange(3 * bars) + 0.5)]  # fmt: skip
         else:
             pitch = 2.0 * tall / bars
             cuts = [slab((-wide, front - 0.01, z - 0.28 * pitch),
