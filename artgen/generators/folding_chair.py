@@ -20,7 +20,7 @@ SHEET = 1500.0
 
 def build(p: FoldingChairParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     """At rest it stands unfolded on four feet; +q folds the rear legs, and the seat follows."""
-    frame, seat, link = p.frame, p.chair_seat, p.linkage
+    frame, seat = p.frame, p.chair_seat
     wood = p.make == "wood"
     bar = Stock(surface="wood", density=OAK, edge=0.0025)
     tube = Stock(surface="coat", density=TUBE, edge=0.0)
@@ -50,6 +50,17 @@ def build(p: FoldingChairParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     )
     parts = (base, legs, seat_part)
     worn = {body.surface for part in parts for body in part.bodies}
+    return Draft(
+        category="folding_chair",
+        parts=parts,
+        joints=_joints(p),
+        surfaces=tuple(spec for role, spec in surfaces.items() if role in worn),
+    )
+
+
+def _joints(p: FoldingChairParams) -> tuple[Joint, Joint]:
+    """The rear legs fold; the seat, hinged to them, follows."""
+    link = p.linkage
     fold = Joint(
         name="rear_legs_fold",
         type="revolute",
@@ -76,12 +87,7 @@ def build(p: FoldingChairParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
         effort=20.0,
         mimic=Mimic(joint="rear_legs_fold", multiplier=link.ratio),
     )
-    return Draft(
-        category="folding_chair",
-        parts=parts,
-        joints=(fold, follow),
-        surfaces=tuple(spec for role, spec in surfaces.items() if role in worn),
-    )
+    return fold, follow
 
 
 def _cover(p: FoldingChairParams) -> str:
