@@ -140,6 +140,14 @@ class ToasterShell:
             steps=crown_steps(self.bottom, top, crown, steps=3 if crown < 0.012 else 5),
         )
 
+    def _coarse(self) -> Solid:
+        """The shell for contact: its upper edge never runs into its corners, where short edges
+        would leave hulls that rounding makes hollow."""
+        crown = min(self.crown, 0.6 * self.corner)
+        y = self.width / 2.0
+        steps = crown_steps(self.bottom, self.chamber.top, crown, steps=2)
+        return stacked(x=self.end, y=(-y, y), radii=(self.corner, self.corner), steps=steps)
+
     def _channels(self) -> list[Solid]:
         room = []
         for way in self.ways:
@@ -226,7 +234,7 @@ class ToasterShell:
         """Convex pieces of the shell around chamber, channels and slits: hulls at the corners,
         boxes between."""
         c, low, top, side = self.chamber, self.bottom, self.chamber.top, self.width / 2.0
-        hull = self._loft(0.0)
+        hull = self._coarse()
         spared = spared_corner(self.crown)
         walls = []
         for outer, inner in ((top - spared, side), (top, side - spared)):
