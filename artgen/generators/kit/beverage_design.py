@@ -169,13 +169,13 @@ class BeverageParams:
         """From the lowest."""
         (x0, _, z0), (x1, y1, z1) = room.low, room.high
         floor, ceiling = max(z0, self.case.step[1]), z1 - BAR
-        count = max(1, min(6 - self.doors, round((ceiling - floor) / self.shelf_pitch)))
+        count = max(1, min(7 - 2 * self.doors, round((ceiling - floor) / self.shelf_pitch)))
         start = self.case.step[1] + 0.035
         step = (ceiling - start) / count
         return [
             FlatShelf(
                 left=x0 + SIDE_PLAY, right=x1 - SIDE_PLAY, front=0.016, back=y1 - COVER - 0.0025,
-                top=start + k * step, style=self.shelf, wires=self.wires, radius=self.wire,
+                top=start + k * step, style=self.shelf, wires=self.wires if self.doors == 1 else 10, radius=self.wire,
             )
             for k in range(count)
         ]  # fmt: skip
