@@ -45,7 +45,8 @@ class DoorPull:
     def bodies(self) -> tuple[Body, ...]:
         """In the leaf's drawing; they wear `handle`."""
         d = self.leaf
-        stock = Stock(surface="handle", density=0.5 * ALUMINIUM, edge=0.0008)
+        edge = 0.0 if self.style in ("bar", "bow") else 0.0008  # Round ones have no edges to ease.
+        stock = Stock(surface="handle", density=0.5 * ALUMINIUM, edge=edge)
         if self.style == "groove":
             return ()
         if self.style == "profile":

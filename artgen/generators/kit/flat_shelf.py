@@ -97,7 +97,7 @@ def _glass(s: FlatShelf, plate: str, trim: str) -> tuple[Body, ...]:
         slab((s.left, s.back - 0.012, s.top - s.depth), (s.right, s.back, s.top + 0.010)),
     ])  # fmt: skip
     sheet = Body(solid=pane, surface=plate, density=GLASS, collision=(s.contact(0.0045),))
-    return sheet, Body(solid=bars - pane, surface=trim, density=ABS, edge=0.001)
+    return sheet, Body(solid=bars - pane, surface=trim, density=ABS)
 
 
 def _wire(s: FlatShelf, plate: str, trim: str) -> tuple[Body, ...]:

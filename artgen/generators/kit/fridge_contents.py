@@ -112,7 +112,8 @@ def _shelves(p: FridgeParams, zone: Zone, room: LinedCavity, bottom: float) -> I
     fridge = zone.cold == "fridge"
     start = max(bottom, p.case.step[1] if z0 < p.case.step[1] else bottom)
     tall = z1 - start - (fittings.BAR if fridge else 0.0)
-    count = max(1, min(4 if fridge else 2, round(tall / p.shelf_pitch) - (1 if fridge else 0)))
+    most = 1 if p.layout == "four_door" else 2
+    count = max(1, min(4 if fridge else most, round(tall / p.shelf_pitch) - (1 if fridge else 0)))
     if tall < 0.30 and fridge:
         count = 0
     made: list[Body] = []
@@ -155,10 +156,11 @@ GLASS_OF = {"can": "can", "slim_can": "can", "jar": "jar", "pet": "pet"}
 
 
 def bottles_in(p: FridgeParams, zone: Zone, door: InsulatedDoor) -> list[Body]:
-    """Bottles in the lowest bin of a chilled room's door, jars in the next."""
+    """Bottles in the lowest bin of a chilled room's door, others in the next; of two doors the
+    right one."""
     made: list[Body] = []
     (x0, x1), leaf = door.sides, door.leaf
-    if zone.cold == "freezer":
+    if zone.cold == "freezer" or (zone.closing == "pair" and leaf.hinge == "left"):
         return made
     for k, ((z, _), kind) in enumerate(zip(door.bins, reversed(p.groceries), strict=False)):
         above = door.bins[k + 1][0] if k + 1 < len(door.bins) else door.high - 0.05
