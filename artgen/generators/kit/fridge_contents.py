@@ -1,6 +1,7 @@
 """What is in the rooms of a refrigerator: shelves, crispers, freezer drawers, groceries, light."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -62,7 +63,7 @@ def _crispers(p: FridgeParams, zone: Zone, room: LinedCavity) -> tuple[Inside, f
     top = z0 + 0.004 + p.crisper_height
     edges = np.linspace(x0 + RUNNER, x1 - RUNNER, p.crispers + 1)
     made = Inside()
-    for k, (left, right) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for k, (left, right) in enumerate(pairwise(edges)):
         name = f"{zone.name}_crisper_{k + 1}"
         low = (float(left) + (0.0015 if k else 0.0), y0, z0 + 0.0035)
         high = (float(right) - (0.0015 if k < p.crispers - 1 else 0.0), back, top)
@@ -209,7 +210,7 @@ def _freezer_drawers(p: FridgeParams, zone: Zone, room: LinedCavity) -> Inside:
     count = max(2, min(p.freezer_drawers, int((z1 - z0) / 0.19)))
     levels = np.linspace(z0 + 0.004, z1 - 0.006, count + 1)
     made = Inside()
-    for k, (low, high) in enumerate(zip(levels[:-1], levels[1:], strict=True)):
+    for k, (low, high) in enumerate(pairwise(levels)):
         name = f"{zone.name}_bin_{k + 1}"
         y0, back = p.inside_front(zone), p.back_at(room, float(low))
         corner = (x0 + RUNNER, y0, float(low))

@@ -79,7 +79,8 @@ class PullOutBin:
                  slab((x0 + 0.004, y1 - e, z0), (x1 - 0.004, y1, top))]  # fmt: skip
         rims = [slab((x0, y0, top - e), (x0 + 0.004 + e, y1, top)),
                 slab((x1 - 0.004 - e, y0, top - e), (x1, y1, top))]  # fmt: skip
-        return Body(solid=union([floor, *sides, *rims]), surface=surface, density=0.7 * ABS, collision=(floor, *sides))  # fmt: skip
+        return Body(solid=union([floor, *sides, *rims]), surface=surface, density=0.7 * ABS,
+                    collision=(floor, *sides))  # fmt: skip
 
     def _panel(self, surface: str) -> Body:
         (x0, y0, z0), (x1, _, z1) = self.low, self.high
