@@ -62,7 +62,7 @@ def _failure(folder: Path) -> str:
     report, error = folder / "report.json", folder / "error.json"
     if report.exists():
         findings = json.loads(report.read_text(encoding="utf-8"))["findings"]
-        return "; ".join(f"{f['check']}: {f['part']}: {f['message']}" for f in findings[:1])
+        return "; ".join(f"{f['check']}: {f['part']}: {f['cause']}" for f in findings[:1])
     if error.exists():
         return str(json.loads(error.read_text(encoding="utf-8"))["error"])
     return "failed without a report"

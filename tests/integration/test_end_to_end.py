@@ -16,7 +16,8 @@ from artgen.dataset import ShardDataset
 
 pytestmark = [pytest.mark.blender, pytest.mark.slow, pytest.mark.xdist_group("end_to_end")]
 
-SMALL = ["--count", "3", "--views", "2", "--states", "2", "--size", "32", "--seed", "5"]
+SMALL = ["--categories", "cabinet", "dishwasher", "laptop", "--count", "3", "--seed", "5"]
+SMALL += ["--views", "2", "--states", "2", "--size", "32"]
 OTHERS = {"logs", "work", ".lock", "render_report.json"}
 """Times, caches and the lock: not part of a run's content."""
 

@@ -81,7 +81,7 @@ def swinging_mirror(m: Mirror) -> Works:
         kind="edge",
         position=(0.0, m.y - 0.0125, low + m.border / 2.0),
         outward=(0.0, -1.0, 0.0),
-        pull=(0.0, -1.0, 0.0),
+        pull=(0.0, 1.0, 0.0),  # The lower edge is pushed back; the upper one comes forward.
     )
     joint = Joint(
         name="mirror_tilt",

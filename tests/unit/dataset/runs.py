@@ -6,9 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from artgen.articulation.types import Limit
-from artgen.core.jsonio import write_json
+from artgen.core.jsonio import plain, write_json
 from artgen.dataset.packing import stage
 from artgen.export.manifest import manifest
+from artgen.validate.report import Finding
 from tests.strategies import chest, drawer_unit
 from tests.unit.dataset.scenes import made_sample
 
@@ -36,8 +37,11 @@ def made_run(out: Path) -> Path:
         manifest(replace(drawer_unit(), category="cabinet", asset_id="cabinet_000001"), out),
     )
     write_bundle_manifest(out / "failed", "laptop_000004", upper_deg=179.0)
-    finding = {"check": "L3.clearance", "part": "lid", "message": "lid hits base"}
-    write_json(out / "failed" / "laptop" / "000004" / "report.json", {"findings": [finding]})
+    finding = Finding(
+        check="L3.clearance", part="lid", value=1e-6, bound="0", cause="lid hits base", remedy="?"
+    )
+    report = {"findings": [plain(finding)]}
+    write_json(out / "failed" / "laptop" / "000004" / "report.json", report)
     write_json(out / "failed" / "laptop" / "000005" / "error.json", {"error": "worker crashed"})
     return out
 
