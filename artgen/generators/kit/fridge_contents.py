@@ -20,6 +20,8 @@ from artgen.generators.kit.pull_out_bin import PullOutBin
 from artgen.geometry.solid import slab
 
 CRISPER_LABEL = (0.060, 0.016)
+TALLEST = 0.26
+"""m; height of a freezer's drawer at most."""
 LIGHT = (0.050, 0.005)
 """m; depth and thickness of the lamp under the ceiling."""
 
@@ -205,11 +207,12 @@ def _control(p: FridgeParams, zone: Zone, room: LinedCavity) -> Inside:
 
 
 def _freezer_drawers(p: FridgeParams, zone: Zone, room: LinedCavity) -> Inside:
-    """Drawers above each other; the lowest ends before the step."""
+    """Drawers above each other, shelves over them; the lowest ends before the step."""
     (x0, _, z0), (x1, _, z1) = room.low, room.high
     count = max(2, min(p.freezer_drawers, int((z1 - z0) / 0.19)))
-    levels = np.linspace(z0 + 0.004, z1 - 0.006, count + 1)
-    made = Inside()
+    end = min(z1 - 0.006, z0 + 0.004 + count * TALLEST)
+    levels = np.linspace(z0 + 0.004, end, count + 1)
+    made = _shelves(p, zone, room, end + 0.01) if z1 - end > 0.30 else Inside()
     for k, (low, high) in enumerate(pairwise(levels)):
         name = f"{zone.name}_bin_{k + 1}"
         y0, back = p.inside_front(zone), p.back_at(room, float(low))
