@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from artgen.core.mesh import Floats
 from artgen.geometry.solid import Solid, cylinder, slab, union, wire
@@ -65,10 +66,15 @@ class Bail:
             side: -1 towards -y, +1 towards +y.
         """
         points, radii = self._measured()
+        ends = np.roll(rim, -1, axis=0)
+        steps = np.linspace(0.0, 1.0, 4, endpoint=False)[:, None, None]
+        line = cKDTree((rim[None] + steps * (ends - rim)[None]).reshape(-1, 3))
 
         def room(angle: float) -> float:
-            y, z = side * math.cos(angle), math.sin(angle)
-            return self._room(points, radii, rim, bead, y, z)
+            """Least distance between hoop and rim, m."""
+            y, z = side * math.cos(angle), self.height + math.sin(angle) * points[:, 2]
+            apart, _ = line.query(np.stack([points[:, 0], points[:, 2] * y, z], axis=1))
+            return float((apart - radii).min() - bead - AIR)
 
         high = math.radians(80.0)
         while room(high - FALL) >= 0.0 and high > math.radians(-30.0):
@@ -87,17 +93,6 @@ class Bail:
         thick = 1.08 * (self.grip or self.wire)
         sleeved = (np.abs(points[:, 0]) <= 0.5 * self.grip_length) & (points[:, 2] > 0.0)
         return points, np.where(sleeved, thick, self.wire)
-
-    def _room(
-        self, points: Floats, radii: Floats, rim: Floats, bead: float, y: float, z: float
-    ) -> float:
-        """Least distance between hoop and rim when the hoop points to (y, z), m."""
-        placed = np.stack([points[:, 0], points[:, 2] * y, self.height + points[:, 2] * z], axis=1)
-        ends = np.roll(rim, -1, axis=0)
-        steps = np.linspace(0.0, 1.0, 4, endpoint=False)[:, None, None]
-        line = (rim[None] + steps * (ends - rim)[None]).reshape(-1, 3)
-        apart = np.linalg.norm(placed[:, None] - line[None], axis=2).min(axis=1)
-        return float((apart - radii).min() - bead - AIR)
 
     def hoop(self, *, hook: float) -> Solid:
         """The wire, upright, with ends that reach `hook` m inwards through the ears."""
