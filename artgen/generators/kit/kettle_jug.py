@@ -117,7 +117,7 @@ def _handle(p: KettleParams, wells: list[Solid]) -> list[Body]:
     whole = tuple(_box_of(piece) for piece in boxes)
     bodies = [Body(solid=solid, surface="trim", density=0.8 * ABS, collision=whole)]
     if p.lid != "knob":
-        bodies.append(Body(solid=_ears(p), surface="trim", density=ABS, edge=0.0005))
+        bodies.append(Body(solid=_ears(p), surface="trim", density=ABS))
     return bodies
 
 

@@ -46,7 +46,7 @@ def lid_part(p: KettleParams) -> DraftPart:
     )
     hollow = cylinder(inner - 0.0025, PLUG - 0.0015, segments=40).at(z=low - PLUG - 0.001)
     shell = revolve(outline, segments=56) - hollow
-    seal = tube(inner + 0.0004, inner - 0.0012, 0.003, segments=40).at(z=low - 0.008)
+    seal = tube(inner + 0.0002, inner - 0.0012, 0.003, segments=56).at(z=low - 0.008)
     flange = round_boxes(r, low, top)
     plug = square_box(0.86 * inner, low - PLUG, low)
     bodies = [
