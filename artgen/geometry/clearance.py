@@ -199,8 +199,13 @@ def _pair_overlaps(
 
 
 def _common(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> Floats:
-    """(K,) m3 that two bodies share at each of (K, 4, 4) poses."""
+    """(K,) m3 that two bodies share at each of (K, 4, 4) poses.
+
+    What cut bodies share is confirmed on the whole ones: manifold3d 3.5.4 answers for a cut wall
+    that passes a seal within 0.1 mm with a wedge of 2e-9 m3 that lies outside of the wall.
+    """
     volumes = np.zeros(len(other_from_one))
+    whole = one, other
     meeting = np.ones(len(other_from_one), bool)
     if len(other_from_one) >= WORTH_A_CUT:
         one_from_other = inverted_poses(other_from_one)
@@ -213,8 +218,15 @@ def _common(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> Flo
         meeting = _shared(carried(other_from_one, _box(one)), _box(other))[:, 0] > NEGLIGIBLE
         meeting &= _shared(carried(one_from_other, _box(other)), _box(one))[:, 0] > NEGLIGIBLE
     for pose in np.flatnonzero(meeting):
-        volumes[pose] = (one.transform(other_from_one[pose, :3]) ^ other).volume()
+        volumes[pose] = _shared_volume(one, other, other_from_one[pose])
+        if volumes[pose] > NEGLIGIBLE and one is not whole[0]:
+            volumes[pose] = min(volumes[pose], _shared_volume(*whole, other_from_one[pose]))
     return volumes
+
+
+def _shared_volume(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> float:
+    """m3 that two bodies share at one (4, 4) pose."""
+    return float((one.transform(other_from_one[:3]) ^ other).volume())
 
 
 def _slides_past(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> bool:
