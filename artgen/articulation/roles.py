@@ -103,6 +103,9 @@ ROLES: Mapping[str, Role] = {
                      sliding=(0.2, 20.0)),
     "pusher": Role(meaning="moves what is inside: a toaster's bread lift, a stapler's follower",
                    sliding=(0.5, 30.0)),
+    # What a source does not name.
+    "part": Role(meaning="moves; what it is for is not known", turning=(0.0, 100.0),
+                 sliding=(0.0, 1000.0)),
 }  # fmt: skip
 """Word to role; `docs/conventions.md` prints this table."""
 

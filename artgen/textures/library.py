@@ -52,11 +52,19 @@ class TextureLibrary:
         Raises:
             UsageError: the recipe is unknown.
         """
-        index = self.folder / f"{spec.recipe}_{_spec_hash(spec)}.json"
+        index = self._index(spec)
         if not index.exists():
             self._add(index, spec, texture_set(spec))
         names = json.loads(index.read_text(encoding="utf-8"))
         return TextureFiles(**{kind: self.folder / name for kind, name in names.items()})
+
+    def keep(self, spec: SurfaceSpec, images: TextureSet) -> None:
+        """Take in images that no recipe makes, such as those of a `picture_surface`."""
+        if not (index := self._index(spec)).exists():
+            self._add(index, spec, images)
+
+    def _index(self, spec: SurfaceSpec) -> Path:
+        return self.folder / f"{spec.recipe}_{_spec_hash(spec)}.json"
 
     def images(self, spec: SurfaceSpec) -> TextureSet:
         """The surface's images as arrays, read back from its files."""
