@@ -37,6 +37,10 @@ class WorkerError(ArtgenError):
     """A Blender process crashed, ran out of time or memory, or reported a fault."""
 
 
+class ModelError(ArtgenError):
+    """A checkpoint, images or training data of the model cannot be used, or training failed."""
+
+
 class UsageError(ArtgenError):
     """A command was given an argument, folder or machine it cannot work with."""
 
