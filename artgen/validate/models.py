@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import mujoco
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from artgen.articulation.types import Joint
 from artgen.core.mesh import Floats
@@ -139,11 +140,16 @@ def _mass_errors(
 def compiled_mass(
     model: mujoco.MjModel, data: mujoco.MjData, bodies: Sequence[int]
 ) -> tuple[float, Floats, Floats]:
-    """Mass (kg), center (3,) m and tensor (3, 3) kg m2 about it of bodies together, as posed."""
+    """Mass (kg), center (3,) m and tensor (3, 3) kg m2 about it of bodies together, as posed.
+
+    Principal axes are taken from the model: kinematics leaves a turn of less than 1e-6 out of
+    `ximat` (`body_sameframe`).
+    """
     own = model.body_mass[bodies]
     mass = float(own.sum())
     center = own @ data.xipos[bodies] / mass
-    axes = data.ximat[bodies].reshape(-1, 3, 3)
+    turns = data.xmat[bodies].reshape(-1, 3, 3)
+    axes = turns @ Rotation.from_quat(model.body_iquat[bodies], scalar_first=True).as_matrix()
     tensor = ((axes * model.body_inertia[bodies][:, None, :]) @ axes.transpose(0, 2, 1)).sum(axis=0)
     arms = data.xipos[bodies] - center
     second = np.einsum("i,ij,ik->jk", own, arms, arms)

@@ -172,7 +172,7 @@ class BeverageParams:
         count = max(1, min(7 - 2 * self.doors, round((ceiling - floor) / self.shelf_pitch)))
         start = self.case.step[1] + 0.035
         step = (ceiling - start) / count
-        wires = self.wires if self.doors == 1 else 10
+        wires = self.wires if self.doors == 1 else 7 if self.shelf == "slats" else 10
         return [
             FlatShelf(
                 left=x0 + SIDE_PLAY, right=x1 - SIDE_PLAY, front=0.016, back=y1 - COVER - 0.0025,

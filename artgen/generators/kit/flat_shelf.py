@@ -27,7 +27,7 @@ class FlatShelf:
         front: y of its front edge; back likewise.
         top: z.
         style: of what it is made.
-        wires: along y; slats have a third as many.
+        wires: along y.
         radius: of the wires.
     """
 
