@@ -35,7 +35,7 @@ class TrainConfig:
         learning_rate: the peak, reached after `warmup_steps`, left on a cosine.
         final_ratio: last rate over the peak.
         betas: AdamW's decay rates of the moments; the paper's.
-        weight_decay: on matrices only; vectors (biases, scales, embeddings) are left alone.
+        weight_decay: on weights of two or more dimensions; biases and scales are left alone.
         clip_norm: largest length of the whole gradient.
         accumulation: batches whose gradients are averaged into one update.
         ema_decay: of the moving average of the weights, the one that ships.
@@ -133,3 +133,36 @@ def perceptual_at(config: TrainConfig, step: int) -> float:
     if last <= first:
         return float(share_at(config, step) >= first)
     return min(max((share_at(config, step) - first) / (last - first), 0.0), 1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moment:
+    """What the objective and the data depend on at one update.
+
+    Attributes:
+        step: updates made before.
+        inverse_beta: 1 / radii.
+        target_px: size of supervised images.
+        samples: points per ray and part.
+        forced: whether rays follow the true boxes and joints.
+        perceptual: factor on the perceptual term, in [0, 1].
+    """
+
+    step: int
+    inverse_beta: float
+    target_px: int
+    samples: int
+    forced: bool
+    perceptual: float
+
+
+def moment_at(config: TrainConfig, step: int) -> Moment:
+    """The schedule's values for update `step`."""
+    return Moment(
+        step=step,
+        inverse_beta=inverse_beta_at(config, step),
+        target_px=stage_at(config, step).target_px,
+        samples=config.samples,
+        forced=forced_at(config, step),
+        perceptual=perceptual_at(config, step),
+    )

@@ -1,0 +1,72 @@
+"""Named tensors beside what they mean, in one safetensors file that shows any damage.
+
+The header holds the schema, the meaning as JSON, and a digest of the tensors; the file appears
+whole or not at all.
+"""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import torch
+from safetensors import SafetensorError, safe_open
+from safetensors.torch import save_file
+from torch import Tensor
+
+from artgen.core.errors import ModelError
+from artgen.core.jsonio import canonical_json, replace_atomically
+
+
+def write_tensors(
+    path: Path, tensors: Mapping[str, Tensor], *, schema: str, meaning: Mapping[str, Any]
+) -> None:
+    """Write the tensors (any device, copied) and their meaning (JSON values)."""
+    whole = {name: tensor.detach().cpu().contiguous().clone() for name, tensor in tensors.items()}
+    header = {"schema": schema, "meaning": canonical_json(meaning), "digest": _digest(whole)}
+    replace_atomically(path, lambda partial: save_file(whole, partial, metadata=header))
+
+
+def read_tensors(path: Path, *, schema: str) -> tuple[dict[str, Tensor], dict[str, Any]]:
+    """The tensors, on the CPU, and their meaning.
+
+    Raises:
+        ModelError: no such file, another kind of file or schema, truncated, or changed bytes.
+    """
+    if not path.is_file():
+        raise ModelError(f"{path}: no such file; expected a checkpoint of schema {schema!r}")
+    try:
+        with safe_open(path, framework="pt") as opened:
+            header = opened.metadata() or {}
+            _check_schema(path, header.get("schema"), schema)
+            tensors = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
+    except (SafetensorError, OSError) as error:
+        raise ModelError(
+            f"{path}: not a whole safetensors file of {path.stat().st_size} bytes ({error}); it is "
+            "truncated or of another kind; copy it again, or delete it and use an older one"
+        ) from error
+    if header.get("digest") != _digest(tensors):
+        raise ModelError(
+            f"{path}: the weights differ from the digest in the header; the file was damaged or "
+            "edited; copy it again, or delete it and use an older one"
+        )
+    return tensors, json.loads(header["meaning"])
+
+
+def _check_schema(path: Path, found: str | None, expected: str) -> None:
+    if found != expected:
+        raise ModelError(
+            f"{path}: schema {found!r}, expected {expected!r}; the file is of another kind or of "
+            "another version of artgen; use the version that wrote it, or train again"
+        )
+
+
+def _digest(tensors: Mapping[str, Tensor]) -> str:
+    """sha256 of names, types, shapes and bytes."""
+    total = hashlib.sha256()
+    for name in sorted(tensors):
+        tensor = tensors[name]
+        total.update(f"{name} {tensor.dtype} {tuple(tensor.shape)}\n".encode())
+        total.update(memoryview(tensor.contiguous().reshape(-1).view(torch.uint8).numpy()))
+    return total.hexdigest()
