@@ -50,10 +50,10 @@ def finish(
     """
     draft = canonicalize(draft)
     settled = [settle_overlaps(part) for part in draft.parts]
-    meshes = _meshed(settled, rounder)
+    meshes = meshed(settled, rounder)
     slots = {surface.name: k for k, surface in enumerate(draft.surfaces)}
     joined = [
-        _joined(part, bodies, slots, draft.surfaces)
+        joined_mesh(part, bodies, slots, draft.surfaces)
         for part, bodies in zip(settled, meshes, strict=True)
     ]
     atlas = atlas_uv([(mesh.vertices, mesh.faces) for mesh in joined], resolution=ATLAS_RESOLUTION)
@@ -106,8 +106,8 @@ def _displaced(part: DraftPart, body: Body, later: Sequence[Body]) -> Body:
     return dataclasses.replace(body, solid=left)
 
 
-def _meshed(parts: Sequence[DraftPart], rounder: Rounder) -> list[list[tuple[Floats, Ints]]]:
-    """Vertices and faces a body, in one call of the rounder."""
+def meshed(parts: Sequence[DraftPart], rounder: Rounder) -> list[list[tuple[Floats, Ints]]]:
+    """Vertices and faces a body of each part, rounded to the grid, in one call of the rounder."""
     raw = []
     for part in parts:
         for body in part.bodies:
@@ -128,7 +128,7 @@ def _closed(part: DraftPart, body: Body, mesh: tuple[Floats, Ints]) -> tuple[Flo
     return without_flat_triangles(*without_crumbs(*mesh))
 
 
-def _joined(
+def joined_mesh(
     part: DraftPart,
     bodies: Sequence[tuple[Floats, Ints]],
     slots: Mapping[str, int],
@@ -173,10 +173,11 @@ def _collision(part: DraftPart) -> tuple[TriMesh, ...]:
     pieces = [piece for body in part.bodies for piece in body.collision]
     if not pieces:
         raise GeometryError(f"part {part.name} has no collision piece; author at least one")
-    return tuple(_collision_mesh(piece) for piece in pieces)
+    return tuple(collision_mesh(piece) for piece in pieces)
 
 
-def _collision_mesh(piece: Solid) -> TriMesh:
+def collision_mesh(piece: Solid) -> TriMesh:
+    """A convex piece on the grid of finished vertices."""
     mesh = piece.trimesh()
     vertices, faces = welded(np.round(mesh.vertices, VERTEX_DECIMALS) + 0.0, mesh.faces)
     return TriMesh(vertices=vertices, faces=faces)

@@ -148,7 +148,7 @@ def read_bundle(folder: Path) -> Bundle:
 
 def _bundle(folder: Path, stated: dict[str, Any]) -> Bundle:
     parts = tuple(_part(entry) for entry in stated["parts"])
-    joints = tuple(_joint(entry) for entry in stated["joints"])
+    joints = tuple(read_joint(entry) for entry in stated["joints"])
     preconditions = tuple(Precondition(**entry) for entry in stated["preconditions"])
     check_tree([part.name for part in parts], joints, preconditions)
     return Bundle(
@@ -158,7 +158,7 @@ def _bundle(folder: Path, stated: dict[str, Any]) -> Bundle:
         parts=parts,
         joints=joints,
         preconditions=preconditions,
-        surfaces=tuple(_surface(entry) for entry in stated["surfaces"]),
+        surfaces=tuple(read_surface(entry) for entry in stated["surfaces"]),
         bounds=np.array(stated["bounds"], float).reshape(2, 3),
         center=np.array(stated["center"], float).reshape(3),
         radius=float(stated["radius"]),
@@ -185,7 +185,7 @@ def _part(entry: dict[str, Any]) -> BundlePart:
         densities=None if densities is None else tuple(densities),
         surfaces=tuple(entry["surfaces"]),
         collision=tuple(_piece(piece) for piece in entry["collision"]),
-        grips=tuple(_grip(grip) for grip in entry["grips"]),
+        grips=tuple(read_grip(grip) for grip in entry["grips"]),
     )
 
 
@@ -195,12 +195,14 @@ def _piece(entry: dict[str, Any]) -> BundleBox | BundleHull:
     return BundleBox(center=vector(np.array(entry["center"])), size=vector(np.array(entry["size"])))
 
 
-def _grip(entry: dict[str, Any]) -> Grip:
+def read_grip(entry: Mapping[str, Any]) -> Grip:
+    """A grip as JSON states it."""
     vectors = {key: vector(np.array(entry[key])) for key in ("position", "outward", "pull")}
     return Grip(name=entry["name"], kind=entry["kind"], **vectors)
 
 
-def _joint(entry: dict[str, Any]) -> Joint:
+def read_joint(entry: Mapping[str, Any]) -> Joint:
+    """A joint as a manifest states it, its limit as `lower` and `upper`."""
     plain = {key: value for key, value in entry.items() if key not in ("lower", "upper")}
     lower, upper = entry["lower"], entry["upper"]
     typed = {
@@ -214,6 +216,7 @@ def _joint(entry: dict[str, Any]) -> Joint:
     return Joint(**{**plain, **typed})
 
 
-def _surface(entry: dict[str, Any]) -> SurfaceSpec:
+def read_surface(entry: Mapping[str, Any]) -> SurfaceSpec:
+    """A surface as JSON states it."""
     color, tile = tuple(entry["color"]), tuple(entry["tile"])
     return SurfaceSpec(**{**entry, "color": color, "tile": tile})
