@@ -6,7 +6,7 @@ from artgen.articulation.types import Body
 from artgen.generators.kit.cord import cord_stub
 from artgen.generators.kit.density import ABS, RUBBER
 from artgen.generators.kit.round_contact import round_boxes
-from artgen.geometry.solid import cylinder, revolve, union
+from artgen.geometry.solid import cylinder, revolve, slab, union
 
 SOCKET = 0.0225
 """m; inner radius of the ring under a jug that takes the connector."""
@@ -35,16 +35,18 @@ def power_base(
         [(0.0030, top), (0.0125, top), (0.0125, top + 0.0105), (0.0115, top + 0.0115),
          (0.0030, top + 0.0115)], segments=24,
     )  # fmt: skip
-    feet = [
-        cylinder(0.008, foot + 0.001, segments=16).at(
-            0.78 * radius * math.cos(a), 0.78 * radius * math.sin(a)
-        )
+    places = [
+        (0.78 * radius * math.cos(a), 0.78 * radius * math.sin(a))
         for a in (math.pi * (0.25 + 0.5 * k) for k in range(4))
+    ]
+    feet = [cylinder(0.008, foot + 0.001, segments=16).at(x, y) for x, y in places]
+    soles = [
+        slab((x - 0.0055, y - 0.0055, 0.0), (x + 0.0055, y + 0.0055, foot)) for x, y in places
     ]
     disc = revolve(outline, segments=56)
     contact = (*round_boxes(radius, foot, top), *round_boxes(0.0195, top, top + 0.008)[2:])
     return (
-        Body(solid=union(feet), surface=rubber, density=RUBBER),
+        Body(solid=union(feet), surface=rubber, density=RUBBER, collision=tuple(soles)),
         Body(solid=disc, surface=surface, density=0.75 * ABS, edge=0.0008, collision=contact),
         Body(solid=boss, surface=surface, density=ABS),
         Body(solid=pin, surface=metal, density=2500.0),
