@@ -1,0 +1,1 @@
+"""Scores of reconstructions, of ours and of any other system, from the layouts they claim."""

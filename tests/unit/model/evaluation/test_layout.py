@@ -1,0 +1,95 @@
+"""Layouts: poses, shares of the way, and what is refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+from artgen.articulation.targets import FIXED, PRISMATIC, REVOLUTE
+from artgen.core.errors import ModelError
+from artgen.core.rotation import axis_angle_matrix
+from artgen.core.transform import apply
+from model.evaluation.layout import unit_axes
+from model.evaluation.reshape import placed, stretched, taken, turned, without
+from tests.unit.model.evaluation.layouts import cabinet
+
+
+def test_poses_follow_the_tree_whatever_its_order() -> None:
+    """A knob on the door turns with it, though it is listed before the door."""
+    chain = cabinet(parents=np.array([-1, 2, 0]))
+    knob = chain.poses((0.0, 0.2, math.pi / 2.0))[1]
+    moved = apply(knob, (0.0, -1.0, 0.0))
+    # Out by 0.2 to (0, -1.2, 0), then a quarter turn about -z: (x, y) to (y, -x).
+    assert np.allclose(moved, (-1.2, 0.0, 0.0), rtol=0.0, atol=1e-15)
+
+
+def test_the_far_end_is_the_farther_one() -> None:
+    limits = np.array([(0.0, 0.0), (-0.7, 0.5), (0.0, 1.5)])
+    assert cabinet(limits=limits).opened(0.5).tolist() == [0.0, -0.35, 0.75]
+    endless = cabinet(endless=np.array([False, False, True]))
+    assert endless.opened(1.0)[2] == 2.0 * math.pi
+
+
+def test_an_unknown_axis_does_not_move() -> None:
+    axes = unit_axes(
+        [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 2.0)], [FIXED, PRISMATIC, REVOLUTE]
+    )
+    assert np.isnan(axes[1]).all()
+    assert axes[2].tolist() == [0.0, 0.0, 1.0]
+    assert np.array_equal(cabinet(axes=axes).poses((0.0, 0.3, 0.0))[1], np.eye(4))
+
+
+def test_placed_moves_as_before() -> None:
+    """To scale and then to move is to move by scaled travels and then to scale."""
+    layout, q = cabinet(), np.array([0.0, 0.3, 0.9])
+    grown = placed(layout, scale=2.0, shift=(1.0, 2.0, 3.0))
+    point = np.array([0.2, 0.3, 0.4])
+    for part, factor in ((1, 2.0), (2, 1.0)):
+        before = 2.0 * apply(layout.poses(q)[part], point) + (1.0, 2.0, 3.0)
+        after = apply(grown.poses(q * factor)[part], 2.0 * point + (1.0, 2.0, 3.0))
+        assert np.allclose(before, after, rtol=0.0, atol=4e-15)  # Ten roundings of numbers below 8.
+    assert grown.limits.tolist() == [[0.0, 0.0], [0.0, 1.0], [0.0, 1.5]]
+    assert grown.states is not None
+    assert grown.states[1].tolist() == [0.0, 0.5, 1.0]
+
+
+def test_stretching_keeps_ranges_and_directions() -> None:
+    wide = stretched(cabinet(), (2.0, 1.0, 1.0))
+    assert wide.bounds[1, 0] == 2.0
+    assert np.array_equal(wide.limits, cabinet().limits)
+    assert np.array_equal(wide.axes, cabinet().axes)
+
+
+def test_turning_turns_what_poses_do() -> None:
+    quarter = np.round(axis_angle_matrix((0.0, 0.0, 1.0), math.pi / 2.0))
+    layout, q = cabinet(), np.array([0.0, 0.3, 0.9])
+    other = turned(layout, quarter)
+    point = np.array([0.2, 0.3, 0.4])
+    for part in (1, 2):
+        moved = quarter @ apply(layout.poses(q)[part], point)
+        assert np.allclose(
+            moved, apply(other.poses(q)[part], quarter @ point), rtol=0.0, atol=1e-15
+        )
+    assert (other.boxes[:, 1] >= other.boxes[:, 0]).all()
+
+
+def test_what_hung_on_a_dropped_part_hangs_above_it() -> None:
+    layout = cabinet(labels=("base", "handle", "door"), parents=np.array([-1, 0, 1]))
+    left = without(layout, lambda label: label == "handle")
+    assert left.labels == ("base", "door")
+    assert left.parents.tolist() == [-1, 0]
+    assert taken(layout, [0, 2]).limits.tolist() == [[0.0, 0.0], [0.0, 1.5]]
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"parents": np.array([-1, 2, 1])}, "circle"),
+        ({"parents": np.array([0, 0, 0])}, "expected -1"),
+        ({"boxes": np.zeros((2, 2, 3))}, "shape"),
+        ({"boxes": np.full((3, 2, 3), np.nan)}, "not finite"),
+    ],
+)
+def test_what_cannot_be_is_refused(changes: dict[str, object], said: str) -> None:
+    with pytest.raises(ModelError, match=said):
+        cabinet(**changes)
