@@ -1,0 +1,1 @@
+"""New objects from old ones: templates whose fronts and handles come from donors."""
