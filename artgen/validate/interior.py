@@ -30,8 +30,12 @@ ENCLOSED = (4, 5)
 """How many of six directions along the axes meet the part: an open box shows five, a shelf four; a
 cavity that shows six is of no use to hands."""
 WAYS = np.concatenate([np.eye(3), -np.eye(3)])
+LOOKS = np.array(
+    [(0, 1, 0), (0, -1, 0), (1, 0, 0), (-1, 0, 0), (0, 0, -1), (0, 1, -1), (0, 2, -1)], float
+)
+"""From the front, the back, both sides, above, and as one looks down who stands before it."""
 WINDOW = 64
-"""Rays a side of the object, from the front, the back, both sides and above."""
+"""Rays a side of the object in each of these directions."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,7 +178,7 @@ def _carriers_open(joint: Joint, joints: Sequence[Joint]) -> State:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class View:
-    """An object at a state, seen by parallel rays from five sides.
+    """An object at a state, seen by parallel rays along `LOOKS`.
 
     Attributes:
         names: of the parts.
@@ -201,18 +205,16 @@ class View:
         """Parts that rays meet first, spread over the object or over one part alone."""
         whole = self.triangles
         shown = whole if part is None else whole[self.owner == self.names.index(part)]
-        low, high = shown.min(axis=(0, 1)), shown.max(axis=(0, 1))
-        first, last = whole.min(axis=(0, 1)) - 1.0, whole.max(axis=(0, 1)) + 1.0
+        start = float(np.linalg.norm(whole, axis=2).max()) + 1.0
+        steps = (np.arange(WINDOW) + 0.5) / WINDOW
         origins, ways = [], []
-        for way in WAYS[[0, 1, 3, 4, 5]]:  # Not from below, where it stands.
-            axis = int(np.argmax(np.abs(way)))
-            steps = (np.arange(WINDOW) + 0.5) / WINDOW
-            u, v = (k for k in range(3) if k != axis)
-            start = np.zeros((WINDOW, WINDOW, 3))
-            start[..., u] = low[u] + steps[:, None] * (high[u] - low[u])
-            start[..., v] = low[v] + steps[None, :] * (high[v] - low[v])
-            start[..., axis] = first[axis] if way[axis] > 0.0 else last[axis]
-            origins.append(start.reshape(-1, 3))
+        for way in LOOKS / np.linalg.norm(LOOKS, axis=1, keepdims=True):
+            side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])
+            across = np.stack([side, np.cross(way, side)]) / np.linalg.norm(side)
+            low, high = (shown @ across.T).min(axis=(0, 1)), (shown @ across.T).max(axis=(0, 1))
+            u, v = np.meshgrid(*(low[:, None] + (high - low)[:, None] * steps), indexing="ij")
+            places = np.stack([u.ravel(), v.ravel()], axis=1)
+            origins.append(places @ across - start * way)
             ways.append(np.tile(way, (WINDOW * WINDOW, 1)))
         hit = _first_hits(whole, np.concatenate(origins), np.concatenate(ways))
         return {self.names[k] for k in np.unique(self.owner[hit[hit >= 0]]).tolist()}
