@@ -41,6 +41,10 @@ class ModelError(ArtgenError):
     """A checkpoint, images or training data of the model cannot be used, or training failed."""
 
 
+class IngestError(ArtgenError):
+    """A foreign object cannot be read, or cannot become one of ours."""
+
+
 class UsageError(ArtgenError):
     """A command was given an argument, folder or machine it cannot work with."""
 

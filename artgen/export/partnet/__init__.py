@@ -1,0 +1,1 @@
+"""PartNet-Mobility's layout: the values of its files, the rule of its URDF, and writing them."""
