@@ -50,7 +50,7 @@ def bake_color(
         if own.any():
             dim = None if shade is None else shade[own]
             light[own] = _shown(surface, look, place[own], spacing[k], dim)
-    return _framed(texels, light, size)
+    return framed(texels, light, size)
 
 
 def _shown(
@@ -111,8 +111,9 @@ def _doubled_area(corners: Floats) -> Floats:
     return np.asarray(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]))
 
 
-def _framed(texels: Texels, light: Floats, size: int) -> Image:
-    """The image, gutters filled from the nearest texel and the rest with the mean."""
+def framed(texels: Texels, light: Floats, size: int) -> Image:
+    """The image whose texels show (N, 3) linear `light`; gutters are filled from the nearest texel,
+    the rest with the mean."""
     picture = np.zeros((size * size, 3))
     picture[:] = light.mean(axis=0)
     picture[texels.index] = light

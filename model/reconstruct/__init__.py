@@ -1,0 +1,1 @@
+"""From images to a bundle: what the model predicts becomes an object that simulators load."""

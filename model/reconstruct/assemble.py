@@ -1,0 +1,233 @@
+"""Predicted parts and joints to an ArticulatedObject, by the same finishing as every asset.
+
+Order: surfaces become closed solids; parts are moved apart at rest; ways are freed, shortened or
+made to wait; canonical order names the parts; contact, weights and forces are added; `finish` does
+the rest, and the colors become one image on its atlas.
+"""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from artgen.articulation.canonical import (
+    canonical_order,
+    canonical_pivot,
+    canonicalize,
+    part_bounds,
+)
+from artgen.articulation.types import (
+    ArticulatedObject,
+    Body,
+    Draft,
+    DraftPart,
+    Joint,
+    Limit,
+    Vector,
+)
+from artgen.core.errors import ModelError
+from artgen.core.mesh import Floats
+from artgen.core.surface import SurfaceSpec
+from artgen.finish import finish
+from artgen.geometry.solid import Solid, union
+from artgen.textures.images import TextureSet
+from model.reconstruct.apart import Scene, apart_at_rest, clear_ways
+from model.reconstruct.barred import bar_ways
+from model.reconstruct.contact import contact_pieces
+from model.reconstruct.guess import ObjectGuess
+from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
+from model.reconstruct.physics import DENSITY, LEAST, forces, weights
+from model.reconstruct.shapes import shape_of
+from model.reconstruct.skin import ColorAt, colored, nearest_color
+
+CATEGORY = "reconstructed"
+CLEARANCE = 1e-3
+"""m of air between parts at rest; half of what joinery leaves around a door."""
+TOLERANCE = 1e-3
+"""Of the radius: how far merging triangles may move a surface."""
+BARE = SurfaceSpec(name="skin", recipe="plain")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wishes:
+    """How an object is put together.
+
+    Attributes:
+        asset_id: names its files.
+        category: of the bundle; one with a rule is held to the rule's sizes.
+        clearance: m of air between parts at rest.
+        density: kg/m3, of all parts.
+    """
+
+    asset_id: str = "reconstruction"
+    category: str = CATEGORY
+    clearance: float = CLEARANCE
+    density: float = DENSITY
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Assembled:
+    """The object and what it took.
+
+    Attributes:
+        images: those of its only surface, for `TextureLibrary.keep`.
+        names: slot to part name.
+        shift: (3,) m, from the sphere's middle to the object frame.
+        states: joint name to q in each state of the images, rad or m.
+        changes: what differs from the prediction, a sentence each.
+    """
+
+    object: ArticulatedObject
+    images: TextureSet
+    names: Mapping[int, str]
+    shift: Floats
+    states: tuple[Mapping[str, float], ...]
+    changes: tuple[str, ...]
+
+
+def assemble(
+    guess: ObjectGuess, wishes: Wishes, *, provenance: Mapping[str, object] | None = None
+) -> Assembled:
+    """The object that was predicted, disjoint, weighed and colored.
+
+    Raises:
+        ModelError: the base is missing. GeometryError: a part vanishes inside others.
+    """
+    if not guess.parts or guess.parts[0].slot != 0:
+        raise ModelError("the prediction has no base in slot 0; nothing can hang on it")
+    joints = parents_first([clean_joint(joint) for joint in guess.joints])
+    solids, told = _solids(guess, {joint.guess.slot for joint in joints})
+    names = _names(solids)
+    for joint in joints:
+        told += [f"{names[joint.guess.slot]}: {change}" for change in joint.changes]
+    scene = Scene(
+        solids={names[slot]: solids[slot] for slot in names},
+        joints=tuple(_stated(joint, names) for joint in joints),
+        changes=tuple(told),
+    )
+    scene = apart_at_rest(scene, clearance=wishes.clearance)
+    scene = clear_ways(bar_ways(scene), clearance=wishes.clearance)
+    draft = _draft(scene, wishes)
+    placed = canonicalize(draft)
+    shift = part_bounds(placed.parts[0])[0] - part_bounds(draft.parts[0])[0]
+    bare = finish(
+        placed,
+        asset_id=wishes.asset_id,
+        rounder=lambda bodies: [],
+        provenance={**(provenance or {}), "changes": list(scene.changes)},
+    )
+    whole, images = colored(bare, _colors(guess, names, shift))
+    return Assembled(
+        object=whole,
+        images=images,
+        names=names,
+        shift=shift,
+        states=_states(joints, scene, names),
+        changes=scene.changes,
+    )
+
+
+def _solids(guess: ObjectGuess, moving: set[int]) -> tuple[dict[int, Solid], list[str]]:
+    """Slot to solid, the base first; parts that do not move become pieces of the base."""
+    told: list[str] = []
+    solids: dict[int, Solid] = {}
+    for part in guess.parts:
+        shape = shape_of(part, tolerance=TOLERANCE * guess.radius)
+        told += [f"slot {part.slot}: {change}" for change in shape.changes]
+        if part.slot in moving or part.slot == 0:
+            solids[part.slot] = shape.solid
+        else:
+            solids[0] = union([solids[0], shape.solid])
+            told.append(f"slot {part.slot} does not move and became a piece of the base")
+    return solids, told
+
+
+def _names(solids: Mapping[int, Solid]) -> dict[int, str]:
+    """Slot to name, in canonical order: base, part_1, part_2 ..."""
+    slots = list(solids)
+    order = canonical_order([solids[slot].bounds for slot in slots])
+    return {slots[k]: "base" if place == 0 else f"part_{place}" for place, k in enumerate(order)}
+
+
+def _stated(joint: CleanJoint, names: Mapping[int, str]) -> Joint:
+    """The joint with its geometry; forces come when the weights are known."""
+    name = names[joint.guess.slot]
+    return canonical_pivot(
+        Joint(
+            name=f"{name}_joint",
+            type=joint.guess.type,
+            parent=names[joint.guess.parent],
+            child=name,
+            axis=_vector(joint.axis),
+            origin=_vector(joint.origin),
+            limit=Limit(lower=joint.lower, upper=joint.upper),
+            friction=0.0,
+            damping=0.0,
+            effort=LEAST,
+        )
+    )
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = (float(value) + 0.0 for value in values)
+    return x, y, z
+
+
+def _draft(scene: Scene, wishes: Wishes) -> Draft:
+    """Parts of one body each, with contact; joints with forces."""
+    heavy = weights(scene.solids, wishes.density)
+    joints = []
+    for joint in scene.joints:
+        found = forces(joint, scene.joints, heavy, scene.base)
+        joints.append(dataclasses.replace(joint, **dataclasses.asdict(found)))
+    parts = tuple(
+        DraftPart(
+            name=name,
+            label="base" if name == scene.base else "part",
+            bodies=(
+                Body(
+                    solid=solid,
+                    surface=BARE.name,
+                    density=wishes.density,
+                    collision=contact_pieces(solid),
+                ),
+            ),
+        )
+        for name, solid in scene.solids.items()
+    )
+    return Draft(
+        category=wishes.category,
+        parts=parts,
+        joints=tuple(joints),
+        surfaces=(BARE,),
+        preconditions=scene.rules,
+    )
+
+
+def _colors(guess: ObjectGuess, names: Mapping[int, str], shift: Floats) -> dict[str, ColorAt]:
+    """Part name to its colors in the object frame; pieces of the base share its name."""
+    found: dict[str, list[tuple[Floats, Floats]]] = {}
+    for part in guess.parts:
+        name = names.get(part.slot, names[0])
+        found.setdefault(name, []).append((part.vertices + shift, part.rgb))
+    return {
+        name: nearest_color(
+            np.concatenate([v for v, _ in own]), np.concatenate([c for _, c in own])
+        )
+        for name, own in found.items()
+    }
+
+
+def _states(
+    joints: list[CleanJoint], scene: Scene, names: Mapping[int, str]
+) -> tuple[dict[str, float], ...]:
+    """q of every joint in each state of the images, within the ways that were left."""
+    count = min((len(joint.observed) for joint in joints), default=0)
+    states: list[dict[str, float]] = [{} for _ in range(count)]
+    for joint in joints:
+        name = f"{names[joint.guess.slot]}_joint"
+        limit = scene.joint(name).limit
+        for state, q in zip(states, joint.observed.tolist(), strict=False):
+            state[name] = q if limit is None else float(np.clip(q, limit.lower, limit.upper))
+    return tuple(states)

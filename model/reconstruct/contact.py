@@ -1,0 +1,194 @@
+"""Convex contact pieces that lie inside of a solid: boxes along the axes, or its hull.
+
+A hull around a cabinet closes it, and pieces that stick out of their part jam its neighbors. So
+space is divided by the planes in which the part has large faces, and by even steps between them;
+cells that lie inside are joined to large boxes (a greedy cover).
+"""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+from numpy.typing import NDArray
+
+from artgen.core.mesh import Floats, TriMesh
+from artgen.geometry.normals import face_vectors
+from artgen.geometry.solid import Solid, slab
+
+CONVEX = 0.995
+"""Share of its hull that a solid fills to be stood for by the hull."""
+MOST_PIECES = 40
+STEPS = 14
+"""Cells along the longest side, between the planes of faces."""
+FACE = 0.02
+"""Share of the surface that looks one way along an axis and makes a plane of its own."""
+INSET = 2e-5
+"""m; samples and faces of boxes stay this far inside planes, against rounding."""
+SAMPLES = (0.02, 0.5, 0.98)
+"""Places across a cell that have to lie inside."""
+LEAST = 0.002
+"""Share of the part's volume that a box fills at least."""
+MOST_HITS = 64
+"""Surfaces that a line through a part meets at most."""
+
+Cells = NDArray[np.bool_]
+
+
+def contact_pieces(solid: Solid) -> tuple[Solid, ...]:
+    """Convex solids inside of `solid`, largest first; its hull where that is all but the same."""
+    hull = solid.hull()
+    if solid.volume >= CONVEX * hull.volume:
+        return (hull,)
+    mesh = solid.trimesh()
+    lines = [grid_lines(mesh, axis) for axis in range(3)]
+    boxes = list(cover(cells_inside(mesh, lines), lines, least=LEAST * solid.volume))
+    return tuple(boxes) or (hull,)
+
+
+def grid_lines(mesh: TriMesh, axis: int) -> Floats:
+    """Coordinates along one axis at which cells end: inner planes of large faces, bounds, steps."""
+    vectors = face_vectors(mesh)
+    area = np.linalg.norm(vectors, axis=1)
+    lower, upper = mesh.bounds[:, axis]
+    longest = float((mesh.bounds[1] - mesh.bounds[0]).max())
+    step = longest / STEPS
+    planes = [lower, upper]
+    for sign in (1.0, -1.0):
+        facing = sign * vectors[:, axis] > 0.95 * area
+        if facing.any():
+            heights = mesh.triangles[facing][:, :, axis].mean(axis=1)
+            planes += list(_planes(heights, area[facing], sign, step / 4.0, FACE * area.sum()))
+    return _filled(np.unique(np.round(planes, 6)), step)
+
+
+def _planes(
+    heights: Floats, areas: Floats, sign: float, width: float, least: float
+) -> Iterator[float]:
+    """The inner side of each cluster of faces whose heights lie within `width` m."""
+    order = np.argsort(heights)
+    heights, areas = heights[order], areas[order]
+    cuts = np.flatnonzero(np.diff(heights) > width) + 1
+    for own, weight in zip(np.split(heights, cuts), np.split(areas, cuts), strict=True):
+        if weight.sum() < least:
+            continue
+        share = np.cumsum(weight) / weight.sum()
+        inner = 0.1 if sign > 0.0 else 0.9
+        yield float(own[min(int(np.searchsorted(share, inner)), len(own) - 1)])
+
+
+def _filled(planes: Floats, step: float) -> Floats:
+    """Planes with even ones between them, none farther than `step` m from the next."""
+    lines = [planes[:1]]
+    for low, high in pairwise(planes.tolist()):
+        count = max(1, int(np.ceil((high - low) / step)))
+        lines.append(np.linspace(low, high, count + 1)[1:])
+    return np.concatenate(lines)
+
+
+def cells_inside(mesh: TriMesh, lines: list[Floats]) -> Cells:
+    """(X, Y, Z) which cells between the lines have all their samples inside the mesh."""
+    places = [_samples(own) for own in lines]
+    inside = points_inside(mesh, places)
+    shape = [len(own) - 1 for own in lines]
+    count = len(SAMPLES)
+    split = inside.reshape(shape[0], count, shape[1], count, shape[2], count)
+    return np.asarray(split.all(axis=(1, 3, 5)))
+
+
+def _samples(lines: Floats) -> Floats:
+    """(S * cells,) coordinates of samples, those at the ends `INSET` m inside at most."""
+    low, high = lines[:-1, None], lines[1:, None]
+    share = np.array(SAMPLES)
+    away = np.minimum((high - low) * share[0], INSET)
+    return np.clip(low + (high - low) * share, low + away, high - away).ravel()
+
+
+def points_inside(mesh: TriMesh, places: list[Floats]) -> Cells:
+    """(X, Y, Z) which points of a grid lie inside a closed mesh: lines along z are followed through
+    all the surfaces that they meet."""
+    scene = EmbreeScene(robust=True)
+    TriangleMesh(scene, np.asarray(mesh.vertices, np.float32), np.array(mesh.faces))
+    upward = face_vectors(mesh)[:, 2]
+    x, y = np.meshgrid(places[0], places[1], indexing="ij")
+    count = x.size
+    start = float(mesh.bounds[0, 2]) - 1.0
+    ways = np.tile(np.array([0.0, 0.0, 1.0], np.float32), (count, 1))
+    winding = np.zeros((count, len(places[2])), np.int32)
+    height, alive = np.full(count, start), np.arange(count)
+    a, b, c = mesh.triangles.transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    for _ in range(MOST_HITS):
+        origins = np.stack([x.ravel()[alive], y.ravel()[alive], height[alive]], axis=1)
+        hit = scene.run(origins.astype(np.float32), ways[alive])
+        met = hit >= 0
+        alive, hit, origins = alive[met], hit[met], origins[met]
+        if not len(alive):
+            break
+        slope = np.where(upward[hit] == 0.0, 1.0, upward[hit])
+        rise = np.einsum("ij,ij->i", normal[hit], a[hit] - origins) / slope
+        level = origins[:, 2] + np.maximum(rise, 0.0)
+        above = places[2][None, :] > level[:, None]
+        winding[alive] += np.where(upward[hit] < 0.0, 1, -1)[:, None] * above
+        height[alive] = level + 1e-6
+    return (winding > 0).reshape(len(places[0]), len(places[1]), len(places[2]))
+
+
+def cover(cells: Cells, lines: list[Floats], *, least: float) -> Iterator[Solid]:
+    """Disjoint boxes of cells, the largest that grows from any cell first."""
+    free = cells.copy()
+    for _ in range(MOST_PIECES):
+        span = _largest(free, lines)
+        if span is None:
+            return
+        low = np.array([lines[k][span[k][0]] for k in range(3)])
+        high = np.array([lines[k][span[k][1]] for k in range(3)])
+        if float((high - low).prod()) < least:
+            return
+        free[tuple(slice(first, last) for first, last in span)] = False
+        yield slab((low + INSET).tolist(), (high - INSET).tolist())
+
+
+Span = tuple[tuple[int, int], tuple[int, int], tuple[int, int]]
+
+
+def _largest(free: Cells, lines: list[Floats]) -> Span | None:
+    """The largest box of free cells: for each range of z layers, the largest rectangle."""
+    best: tuple[float, Span | None] = (0.0, None)
+    steps = [np.diff(own) for own in lines]
+    depth = free.shape[2]
+    for first in range(depth):
+        plate = np.ones(free.shape[:2], bool)
+        for last in range(first, depth):
+            plate = plate & free[:, :, last]
+            if not plate.any():
+                break
+            tall = float(lines[2][last + 1] - lines[2][first])
+            if tall * float(steps[0] @ plate @ steps[1]) <= best[0]:
+                continue
+            area, x, y = _rectangle(plate, lines[0], lines[1])
+            if area * tall > best[0]:
+                best = area * tall, (x, y, (first, last + 1))
+    return best[1]
+
+
+def _rectangle(
+    plate: Cells, x_lines: Floats, y_lines: Floats
+) -> tuple[float, tuple[int, int], tuple[int, int]]:
+    """Area (m2) and spans of the largest all-true rectangle of an (X, Y) plate."""
+    best = (0.0, (0, 0), (0, 0))
+    for first in range(plate.shape[0]):
+        row = np.ones(plate.shape[1], bool)
+        for last in range(first, plate.shape[0]):
+            row = row & plate[last]
+            if not row.any():
+                break
+            wide = float(x_lines[last + 1] - x_lines[first])
+            edges = np.flatnonzero(np.diff(np.concatenate([[0], row.view(np.int8), [0]])))
+            starts, ends = edges[0::2], edges[1::2]
+            lengths = y_lines[ends] - y_lines[starts]
+            k = int(np.argmax(lengths))
+            if wide * float(lengths[k]) > best[0]:
+                best = wide * float(lengths[k]), (first, last + 1), (int(starts[k]), int(ends[k]))
+    return best

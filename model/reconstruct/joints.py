@@ -1,0 +1,121 @@
+"""Predicted joints made into joints that hold the house's promises: unit axes along the sides of
+things where they nearly are, rest at one end or in the middle, positive motion opens.
+
+Every change is told, so that a report can say what was seen and what was made of it.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from artgen.core.mesh import Floats
+from model.reconstruct.guess import JointGuess
+
+SNAP_DEG = 15.0
+"""An axis nearer than this to an axis of the object is put on it: validators take less for a slip,
+and things that are meant to be slanted are slanted more."""
+TWO_WAYS = 0.35
+"""Share of its range that a joint goes backward at least, if it rests in the middle."""
+LEAST_TURN = 0.1
+"""rad; twice the least that validators take for a joint."""
+LEAST_SLIDE = 0.004
+"""m; the way of a button."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CleanJoint:
+    """A joint as it will be stated; m and rad, zero at the sphere's middle.
+
+    Attributes:
+        observed: (T,) q of the images' states, with the sign of the stated axis.
+        changes: what was altered, a sentence each.
+    """
+
+    guess: JointGuess
+    axis: Floats
+    origin: Floats
+    lower: float
+    upper: float
+    observed: Floats
+    changes: tuple[str, ...]
+
+
+def clean_joint(guess: JointGuess) -> CleanJoint:
+    """The joint as it can be stated."""
+    changes: list[str] = []
+    axis = snapped(guess.axis, changes)
+    lower = min(0.0, guess.lower, guess.upper, *guess.observed.tolist())
+    upper = max(0.0, guess.lower, guess.upper, *guess.observed.tolist())
+    observed = guess.observed
+    if -lower > upper:
+        axis, lower, upper, observed = -axis, -upper, -lower, -observed
+        changes.append("its axis was turned around, so that positive motion opens")
+    lower, upper = rested(guess, lower, upper, changes)
+    return CleanJoint(
+        guess=guess,
+        axis=axis + 0.0,
+        origin=guess.origin,
+        lower=lower,
+        upper=upper,
+        observed=observed.clip(lower, upper),
+        changes=tuple(changes),
+    )
+
+
+def snapped(axis: Floats, changes: list[str]) -> Floats:
+    """A unit axis; a coordinate axis where it is within `SNAP_DEG` of one."""
+    length = float(np.linalg.norm(axis))
+    if not length > 1e-6:
+        changes.append("its axis has no direction; the vertical stands for it")
+        return np.array([0.0, 0.0, 1.0])
+    unit = axis / length
+    along = int(np.argmax(np.abs(unit)))
+    off = math.degrees(math.acos(min(1.0, float(abs(unit[along])))))
+    if off > SNAP_DEG:
+        return np.asarray(unit / np.linalg.norm(unit))
+    if off > 0.0:
+        changes.append(f"its axis was {off:.1f} degrees off {'xyz'[along]} and was put on it")
+    return np.asarray(np.eye(3)[along] * math.copysign(1.0, unit[along]))
+
+
+def rested(
+    guess: JointGuess, lower: float, upper: float, changes: list[str]
+) -> tuple[float, float]:
+    """Ends with rest at the lower one, or in the middle of what goes both ways."""
+    least = LEAST_TURN if guess.type == "revolute" else LEAST_SLIDE
+    if upper < least:
+        changes.append(f"its way of {upper:.4g} was widened to {least:g}")
+        upper = least
+    if guess.type == "revolute" and upper > 2.0 * math.pi:
+        changes.append(f"its way of {upper:.4g} rad was cut to one turn")
+        upper = 2.0 * math.pi
+    if -lower >= TWO_WAYS * (upper - lower):
+        both = max(-lower, upper)
+        if guess.type == "revolute":
+            both = min(both, math.pi)
+        if both != -lower or both != upper:
+            changes.append(f"it goes both ways; its ends were set to -{both:.4g} and {both:.4g}")
+        return -both, both
+    if lower < 0.0:
+        changes.append(f"the {-lower:.4g} by which it went beyond rest were cut off")
+    return 0.0, upper
+
+
+def parents_first(joints: Sequence[CleanJoint]) -> list[CleanJoint]:
+    """Joints in an order in which parents come before children; a circle is broken at the base."""
+    placed, ordered, waiting = {0}, [], list(joints)
+    while waiting:
+        ready = [j for j in waiting if j.guess.parent in placed] or [_rebased(waiting[0])]
+        slots = {joint.guess.slot for joint in ready}
+        ordered += ready
+        placed |= slots
+        waiting = [joint for joint in waiting if joint.guess.slot not in slots]
+    return ordered
+
+
+def _rebased(joint: CleanJoint) -> CleanJoint:
+    guess = JointGuess(**{**vars(joint.guess), "parent": 0})
+    changes = (*joint.changes, "its parent moved with it in a circle; it hangs on the base")
+    return CleanJoint(**{**vars(joint), "guess": guess, "changes": changes})

@@ -1,0 +1,71 @@
+"""Predicted surfaces as closed solids: crumbs dropped, needless triangles merged, never empty."""
+
+from dataclasses import dataclass
+
+import manifold3d as m3
+import numpy as np
+
+from artgen.core.errors import GeometryError
+from artgen.geometry.solid import Solid, slab, union
+from model.reconstruct.guess import PartGuess
+
+CRUMB = 0.02
+"""Pieces below this share of a part's largest piece are floaters of the field."""
+LEAST_SIDE = 0.002
+"""m; a predicted box is not thinner."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Shape:
+    """The solid that stands for a part, and what had to be done for it."""
+
+    solid: Solid
+    changes: tuple[str, ...]
+
+
+def shape_of(guess: PartGuess, *, tolerance: float) -> Shape:
+    """The part as a solid whose surface lies within `tolerance` m of the predicted one."""
+    manifold = m3.Manifold(m3.Mesh64(np.array(guess.vertices), guess.faces.astype(np.uint64)))
+    changes: list[str] = []
+    if manifold.status() != m3.Error.NoError or abs(manifold.volume()) == 0.0:
+        if len(guess.vertices) > 3 and manifold.status() != m3.Error.NoError:
+            changes.append(f"its surface is not closed ({manifold.status().name})")
+        changes.append("its predicted box stands for it")
+        return Shape(solid=predicted_box(guess), changes=tuple(changes))
+    if manifold.volume() < 0.0:
+        changes.append("its surface was turned inside out")
+        faces = guess.faces[:, ::-1].astype(np.uint64)
+        manifold = m3.Manifold(m3.Mesh64(np.array(guess.vertices), faces))
+    return Shape(solid=_tidy(Solid(manifold), tolerance, changes), changes=tuple(changes))
+
+
+def _tidy(solid: Solid, tolerance: float, changes: list[str]) -> Solid:
+    pieces = solid.pieces()
+    largest = max(piece.volume for piece in pieces)
+    kept = [piece for piece in pieces if piece.volume >= CRUMB * largest]
+    if len(kept) < len(pieces):
+        changes.append(f"{len(pieces) - len(kept)} floating crumbs were dropped")
+    whole = kept[0] if len(kept) == 1 else union(kept)
+    simple = whole.manifold.simplify(tolerance)
+    return whole if simple.is_empty() else Solid(simple)
+
+
+def predicted_box(guess: PartGuess) -> Solid:
+    """The box of the heads."""
+    middle = guess.box.mean(axis=0)
+    half = np.maximum(guess.box[1] - guess.box[0], LEAST_SIDE) / 2.0
+    return slab(middle - half, middle + half)
+
+
+def without_slivers(solid: Solid) -> Solid:
+    """The solid less pieces that booleans leave where surfaces nearly touch.
+
+    Raises:
+        GeometryError: nothing else is left.
+    """
+    pieces = solid.pieces()
+    if not pieces:
+        raise GeometryError("a reconstructed part vanished under its neighbors")
+    largest = max(piece.volume for piece in pieces)
+    kept = [piece for piece in pieces if piece.volume >= CRUMB**2 * largest]
+    return solid if len(kept) == len(pieces) else union(kept)

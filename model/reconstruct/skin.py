@@ -1,0 +1,97 @@
+"""The predicted colors as one image on the atlas: every texel asks the nearest predicted points."""
+
+import dataclasses
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from artgen.articulation.types import ArticulatedObject
+from artgen.core.mesh import Floats
+from artgen.textures.atlas import LINEAR, framed
+from artgen.textures.images import TextureSet
+from artgen.textures.picture import picture_surface
+from artgen.textures.raster import touched_texels
+
+ColorAt = Callable[[Floats], Floats]
+"""(N, 3) points, m, to (N, 3) sRGB in [0, 1]."""
+
+SIZE = 512
+"""Texels along a side, as many as the atlas of a bundle has."""
+NEIGHBORS = 3
+ROUGHNESS = 0.6
+
+
+def nearest_color(vertices: Floats, rgb: Floats) -> ColorAt:
+    """Colors of the nearest vertices, the nearer the more."""
+    tree = cKDTree(vertices)
+    count = min(NEIGHBORS, len(vertices))
+
+    def color_at(points: Floats) -> Floats:
+        distance, index = tree.query(points, k=count)
+        distance, index = distance.reshape(-1, count), index.reshape(-1, count)
+        weight = 1.0 / (distance + 1e-6)
+        return np.asarray((weight[..., None] * rgb[index]).sum(1) / weight.sum(1, keepdims=True))
+
+    return color_at
+
+
+def colored(
+    obj: ArticulatedObject, colors: Mapping[str, ColorAt]
+) -> tuple[ArticulatedObject, TextureSet]:
+    """The object with one surface for all parts, and its image; `colors` by part name.
+
+    The metric coordinates become those of the atlas, at the scale that keeps lengths right in the
+    mean, so that GLB and USD show the image that OBJ shows.
+    """
+    image = _image(obj, colors)
+    side = _meters_across(obj)
+    images = TextureSet(color=image)
+    skin = picture_surface("skin", images, tile=(side, side), roughness=ROUGHNESS)
+    parts = tuple(
+        dataclasses.replace(
+            part,
+            mesh=dataclasses.replace(
+                part.mesh,
+                uv=np.asarray(part.mesh.atlas) * side,
+                slot=None,
+            ),
+        )
+        for part in obj.parts
+    )
+    return dataclasses.replace(obj, parts=parts, surfaces=(skin,)), images
+
+
+def _image(obj: ArticulatedObject, colors: Mapping[str, ColorAt]) -> np.ndarray:  # type: ignore[type-arg]
+    atlas = np.concatenate([np.asarray(part.mesh.atlas) for part in obj.parts])
+    corners = np.concatenate([part.mesh.triangles for part in obj.parts])
+    owner = np.repeat(np.arange(len(obj.parts)), [len(part.mesh.faces) for part in obj.parts])
+    texels = touched_texels(atlas, SIZE)
+    place = np.einsum("nc,nck->nk", texels.weights, corners[texels.triangle])
+    light = np.zeros((len(place), 3))
+    for k, part in enumerate(obj.parts):
+        own = owner[texels.triangle] == k
+        if own.any():
+            light[own] = linear(colors[part.name](place[own]))
+    return framed(texels, light, SIZE)
+
+
+def linear(rgb: Floats) -> Floats:
+    """Linear light of sRGB in [0, 1], by the table of 256 steps, between them evenly."""
+    place = np.clip(rgb, 0.0, 1.0) * 255.0
+    low = np.minimum(place.astype(np.int64), 254)
+    share = place - low
+    return np.asarray(LINEAR[low] * (1.0 - share) + LINEAR[low + 1] * share)
+
+
+def _meters_across(obj: ArticulatedObject) -> float:
+    """Side of the atlas, m, at which its triangles are as large as those of the parts."""
+    flat = solid = 0.0
+    for part in obj.parts:
+        u, v = (
+            np.asarray(part.mesh.atlas)[:, k] - np.asarray(part.mesh.atlas)[:, 0] for k in (1, 2)
+        )
+        flat += float(np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum())
+        a, b, c = part.mesh.triangles.transpose(1, 0, 2)
+        solid += float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+    return float(np.sqrt(solid / max(flat, 1e-12)))
