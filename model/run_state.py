@@ -8,7 +8,8 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from model.checkpoint import Checkpoint, check_weights
+from artgen.core.errors import ModelError
+from model.checkpoint import Checkpoint, check_weights, found_checkpoints, read_checkpoint
 from model.distributed import Team, local, share_of, shared, whole
 from model.schedule import TrainConfig
 
@@ -141,6 +142,35 @@ def restore(run: Run, checkpoint: Checkpoint, path: Path) -> None:
         local(run.average[name]).copy_(local(share_of(checkpoint.average[name], tensor)))
     _restore_moments(run, checkpoint)
     run.step, run.cursor, run.seconds = checkpoint.step, checkpoint.cursor, checkpoint.seconds
+
+
+def resume(run: Run, folder: Path) -> None:
+    """Put a begun run where the folder's newest checkpoint left it; unchanged where there is none.
+
+    Raises:
+        ModelError: that file is damaged, or was made under other settings.
+    """
+    found = found_checkpoints(folder)
+    if not found:
+        return
+    checkpoint = read_checkpoint(found[-1])
+    if changed := _changed(checkpoint.config, run.settings):
+        raise ModelError(
+            f"{found[-1]}: was made under other settings: {'; '.join(changed[:5])}; give the same "
+            "ones to resume, or choose another folder"
+        )
+    restore(run, checkpoint, found[-1])
+
+
+def _changed(theirs: object, ours: object, where: str = "") -> list[str]:
+    """Where two JSON values differ, as `key: theirs, now ours`."""
+    if isinstance(theirs, Mapping) and isinstance(ours, Mapping):
+        return [
+            line
+            for key in sorted({*theirs, *ours})
+            for line in _changed(theirs.get(key), ours.get(key), f"{where}.{key}".lstrip("."))
+        ]
+    return [] if theirs == ours else [f"{where} {theirs!r}, now {ours!r}"]
 
 
 def _restore_moments(run: Run, checkpoint: Checkpoint) -> None:

@@ -18,14 +18,18 @@ from torch import Tensor
 from artgen.core.errors import ModelError
 from artgen.core.jsonio import canonical_json, replace_atomically
 
+KEY = "artgen"
+"""Of the safetensors header."""
+
 
 def write_tensors(
     path: Path, tensors: Mapping[str, Tensor], *, schema: str, meaning: Mapping[str, Any]
 ) -> None:
     """Write the tensors (any device, copied) and their meaning (JSON values)."""
     whole = {name: tensor.detach().cpu().contiguous().clone() for name, tensor in tensors.items()}
-    header = {"schema": schema, "meaning": canonical_json(meaning), "digest": _digest(whole)}
-    replace_atomically(path, lambda partial: save_file(whole, partial, metadata=header))
+    # One key: safetensors writes several in an order that changes from run to run.
+    header = canonical_json({"schema": schema, "meaning": meaning, "digest": _digest(whole)})
+    replace_atomically(path, lambda partial: save_file(whole, partial, metadata={KEY: header}))
 
 
 def read_tensors(path: Path, *, schema: str) -> tuple[dict[str, Tensor], dict[str, Any]]:
@@ -38,7 +42,7 @@ def read_tensors(path: Path, *, schema: str) -> tuple[dict[str, Tensor], dict[st
         raise ModelError(f"{path}: no such file; expected a checkpoint of schema {schema!r}")
     try:
         with safe_open(path, framework="pt") as opened:
-            header = opened.metadata() or {}
+            header = json.loads((opened.metadata() or {}).get(KEY, "{}"))
             _check_schema(path, header.get("schema"), schema)
             tensors = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
     except (SafetensorError, OSError) as error:
@@ -51,7 +55,7 @@ def read_tensors(path: Path, *, schema: str) -> tuple[dict[str, Tensor], dict[st
             f"{path}: the weights differ from the digest in the header; the file was damaged or "
             "edited; copy it again, or delete it and use an older one"
         )
-    return tensors, json.loads(header["meaning"])
+    return tensors, header["meaning"]
 
 
 def _check_schema(path: Path, found: str | None, expected: str) -> None:
@@ -68,5 +72,5 @@ def _digest(tensors: Mapping[str, Tensor]) -> str:
     for name in sorted(tensors):
         tensor = tensors[name]
         total.update(f"{name} {tensor.dtype} {tuple(tensor.shape)}\n".encode())
-        total.update(memoryview(tensor.contiguous().reshape(-1).view(torch.uint8).numpy()))
+        total.update(tensor.contiguous().reshape(-1).view(torch.uint8).numpy().tobytes())
     return total.hexdigest()

@@ -20,7 +20,7 @@ from artgen.core.stream import Stream
 from artgen.progress import Show, silent
 from model.batch import Batch
 from model.checkpoint import checkpoint_path, prune, write_checkpoint
-from model.distributed import averaged, meeting, wait_for_all, whole
+from model.distributed import averaged, local, meeting, wait_for_all, whole
 from model.log import TrainLog
 from model.run_state import Run, follow, snapshot
 from model.schedule import Moment, moment_at, rate_at
@@ -80,13 +80,13 @@ def _updates(run: Run, supply: Supply, folder: Path) -> Iterator[tuple[Moment, M
         measured = accumulate(run, chosen, moment)
         if faults := _faults(run, measured):
             raise _stopped(run, folder, faults, chosen)
-        update(run)
+        update(run, measured)
         run.seconds += time.perf_counter() - started
         yield moment, measured
 
 
 def accumulate(run: Run, batches: Sequence[Batch], moment: Moment) -> Measured:
-    """Leave the mean gradient of the batches over all ranks, clipped, in the weights."""
+    """Leave the mean gradient of the batches over all ranks in the weights."""
     torch.manual_seed(_seed(run))
     sums: dict[str, Tensor] = {}
     for index, batch in enumerate(batches):
@@ -95,11 +95,14 @@ def accumulate(run: Run, batches: Sequence[Batch], moment: Moment) -> Measured:
             (losses["total"] / len(batches)).backward()  # type: ignore[no-untyped-call]
         for name, value in losses.items():
             sums[name] = sums.get(name, torch.zeros_like(value)) + value.detach() / len(batches)
-    weights = [weight for weight in run.objective.parameters() if weight.grad is not None]
-    length = whole(torch.nn.utils.clip_grad_norm_(weights, run.config.clip_norm))
+    length = whole(torch.nn.utils.get_total_norm(_gradients(run)))
     means = averaged(torch.stack([sums[name].float() for name in sorted(sums)]), run.team)
     terms = dict(zip(sorted(sums), means.tolist(), strict=True))
     return Measured(terms=terms, gradient=float(length))
+
+
+def _gradients(run: Run) -> list[Tensor]:
+    return [weight.grad for weight in run.objective.parameters() if weight.grad is not None]
 
 
 def _seed(run: Run) -> int:
@@ -108,8 +111,11 @@ def _seed(run: Run) -> int:
     return int(stream.generator().integers(2**63))
 
 
-def update(run: Run) -> None:
-    """Apply the gradients that `accumulate` left, and move on."""
+def update(run: Run, measured: Measured) -> None:
+    """Clip the gradients that `accumulate` left, apply them, and move on."""
+    if measured.gradient > run.config.clip_norm:
+        scale = run.config.clip_norm / measured.gradient
+        torch._foreach_mul_([local(gradient) for gradient in _gradients(run)], scale)
     for group in run.optimizer.param_groups:
         group["lr"] = rate_at(run.config, run.step)
     run.optimizer.step()
