@@ -68,9 +68,8 @@ class BoxMap:
         last = (there[-1] - there[-2]) / (here[-1] - here[-2])
         below = there[0] + (values - here[0]) * first
         above = there[-1] + (values - here[-1]) * last
-        return np.asarray(
-            np.where(values < here[0], below, np.where(values > here[-1], above, inner))
-        )
+        upward = np.where(values > here[-1], above, inner)
+        return np.asarray(np.where(values < here[0], below, upward))
 
     def _knots(self, ends: Floats, axis: int) -> Floats:
         low, high = self.borders[:, axis]

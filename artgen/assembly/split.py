@@ -121,9 +121,8 @@ def _handles(
     """Bodies that stand out before the front where it is gripped, and what touches those."""
     slab = _hull(boxes[front])
     out = ~front & (boxes[:, 1, 1] <= slab[0, 1] + PROUD) & ~_near_axis(boxes, joint)
-    out &= ((boxes[:, 0] >= slab[0] - 0.05) & (boxes[:, 1] <= slab[1] + 0.05))[:, [0, 2]].all(
-        axis=1
-    )
+    beside = (boxes[:, 0] >= slab[0] - 0.05) & (boxes[:, 1] <= slab[1] + 0.05)
+    out &= beside[:, [0, 2]].all(axis=1)
     held = [np.array(grip.position) for grip in grips if grip.kind in ("handle", "knob")]
     if not grips:
         return out

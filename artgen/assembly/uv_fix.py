@@ -35,11 +35,13 @@ def fixed_uv(mesh: TriMesh, vertices: Floats, *, mirrored: bool) -> Floats:
     """
     uv = np.asarray(mesh.uv)
     label = charts(mesh)
-    moved = vertices[mesh.faces]
-    fixed = _rescaled(mesh.triangles, moved, uv, label)
-    for chart in _flat_charts(mesh.triangles, moved, label):
+    before, moved = mesh.triangles, vertices[mesh.faces]
+    if mirrored:
+        before = before * (-1.0, 1.0, 1.0)
+    fixed = _rescaled(before, moved, uv, label)
+    for chart in _flat_charts(before, moved, label):
         own = label == chart
-        laid = _laid_out(mesh.triangles[own], moved[own], uv[own])
+        laid = _laid_out(before[own], moved[own], uv[own])
         if laid is not None:
             fixed[own] = laid
     if mirrored:
@@ -92,9 +94,7 @@ def gradients(triangles: Floats, uv: Floats) -> Floats:
     """(F, 2, 3) gradients of u and of v along the surface, per m; zero for triangles of no area."""
     first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     along, across = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
-    e, f, g = (
-        np.einsum("ij,ij->i", p, q) for p, q in ((first, first), (first, second), (second, second))
-    )
+    e, f, g = _forms(first, second)
     det = e * g - f * f
     det = np.where(det > 0.0, det, np.inf)
     p = (along * g[:, None] - across * f[:, None]) / det[:, None]
@@ -102,10 +102,17 @@ def gradients(triangles: Floats, uv: Floats) -> Floats:
     return np.asarray(p[:, :, None] * first[:, None] + q[:, :, None] * second[:, None])
 
 
+def _forms(one: Floats, other: Floats) -> tuple[Floats, Floats, Floats]:
+    """Inner products of rows: one with itself, one with the other, the other with itself."""
+    pairs = ((one, one), (one, other), (other, other))
+    e, f, g = (np.einsum("ij,ij->i", p, q) for p, q in pairs)
+    return e, f, g
+
+
 def singular_values(triangles: Floats, uv: Floats) -> Floats:
     """(F, 2) of the map from the surface to UV, larger first: 1 and 1 where lengths are kept."""
     u, v = gradients(triangles, uv).transpose(1, 0, 2)
-    e, f, g = (np.einsum("ij,ij->i", p, q) for p, q in ((u, u), (u, v), (v, v)))
+    e, f, g = _forms(u, v)
     middle, half = (e + g) / 2.0, np.hypot((e - g) / 2.0, f)
     return np.sqrt(np.stack([middle + half, (middle - half).clip(min=0.0)], axis=1))
 
@@ -121,8 +128,8 @@ def _rescaled(before: Floats, after: Floats, uv: Floats, label: Labels) -> Float
         was = np.bincount(label, weights=weight * old[:, k], minlength=count)
         now = np.bincount(label, weights=weight * new[:, k], minlength=count)
         ratio = np.where(now > 0.0, was / np.where(now > 0.0, now, 1.0), 1.0)
-        middle = np.bincount(label, weights=weight * uv[:, :, k].mean(axis=1), minlength=count)
-        middle /= total
+        sums = np.bincount(label, weights=weight * uv[:, :, k].mean(axis=1), minlength=count)
+        middle = sums / total
         fixed[:, :, k] = middle[label][:, None] + (
             (uv[:, :, k] - middle[label][:, None]) * ratio[label][:, None]
         )
@@ -134,8 +141,8 @@ def _flat_charts(before: Floats, after: Floats, label: Labels) -> list[int]:
     flat = np.ones(int(label.max()) + 1, bool)
     for triangles in (before, after):
         normals = unit_normals(triangles)
-        mean = np.stack([np.bincount(label, weights=normals[:, k]) for k in range(3)], axis=1)
-        mean /= np.linalg.norm(mean, axis=1, keepdims=True).clip(min=1e-300)
+        sums = np.stack([np.bincount(label, weights=normals[:, k]) for k in range(3)], axis=1)
+        mean = sums / np.linalg.norm(sums, axis=1, keepdims=True).clip(min=1e-300)
         off = np.abs(normals - mean[label]).max(axis=1)
         flat[label[off > FLAT]] = False
     return [int(chart) for chart in np.flatnonzero(flat)]
@@ -158,10 +165,7 @@ def _laid_out(before: Floats, after: Floats, uv: Floats) -> Floats | None:
 
 
 def _least_turn(start: Floats, end: Floats) -> Floats:
-    """(3, 3) least rotation that takes one unit vector to another, or to its opposite where that is
-    nearer: a mirrored chart looks the other way and keeps its axes."""
-    if start @ end < 0.0:
-        start = -start
+    """(3, 3) least rotation that takes one unit vector to another, not opposite, one."""
     cross, cos = np.cross(start, end), float(start @ end)
     skew = np.array([[0, -cross[2], cross[1]], [cross[2], 0, -cross[0]], [-cross[1], cross[0], 0]])
     return np.asarray(np.eye(3) + skew + skew @ skew / (1.0 + cos))
