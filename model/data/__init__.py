@@ -1,1 +1,1 @@
-"""Training items: from seeds, ray-cast where they are trained on, or from shards; batches of them."""
+"""Training items: ray-cast from seeds where the model is trained, or read from shards; batches."""

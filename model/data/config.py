@@ -61,7 +61,7 @@ class DataConfig:
     mask_share: float = 0.5
     dilation_px: int = 2
     background: Background = "random"
-    same_cameras: bool = False
+    same_cameras: bool = True
     fov_deg: Range = (25.0, 50.0)
     elevation_deg: Range = (-10.0, 60.0)
     azimuth_deg: float = 180.0

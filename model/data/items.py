@@ -15,9 +15,9 @@ Planned = TypeVar("Planned")
 class Source(Protocol, Generic[Planned]):
     """Items by position; both halves are functions of their arguments alone.
 
-    `plan` draws: states, cameras, lights; numpy, picklable, in any process. `batch` shows: images and
-    rays, on the device that trains where it can. `left_out` says which objects are not among the
-    items, and why; it is never silent.
+    `plan` draws: states, cameras, lights; numpy, picklable, in any process. `batch` shows: images
+    and rays, on the device that trains where it can. `left_out` says which objects are
+    not among the items, and why; it is never silent.
     """
 
     @property
