@@ -1,8 +1,11 @@
 """Layouts that the tests share."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from artgen.articulation.targets import FIXED, PRISMATIC, REVOLUTE
+from artgen.geometry.solid import slab
 from model.evaluation.layout import Layout
 
 BASE = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
@@ -25,3 +28,9 @@ def cabinet(name: str = "cabinet", **changes: object) -> Layout:
         "states": np.array([(0.0, 0.0, 0.0), (0.0, 0.25, 1.0)]),
     }
     return Layout(**{**values, **changes})  # type: ignore[arg-type]
+
+
+def with_box_meshes(layout: Layout) -> Layout:
+    """The layout with every box as a part's surface."""
+    meshes = tuple(slab(box[0], box[1]).trimesh() for box in layout.boxes)
+    return replace(layout, meshes=meshes)
