@@ -23,9 +23,9 @@ INSET = 1e-3
 
 def stacked(planes_BP6CHW: Tensor) -> Tensor:
     """(B * 3, C, P * H, 2 * W) one image for each object and pair of axes: parts below each other,
-    the side < 0 left of the side >= 0; so that one call reads all parts."""
+    the side >= 0 left of the side < 0; so that one call reads all parts."""
     batch, parts, _, channels, height, width = planes_BP6CHW.shape
-    pairs = full(planes_BP6CHW).reshape(batch, parts, 3, 2, channels, height, width).flip(3)
+    pairs = full(planes_BP6CHW).reshape(batch, parts, 3, 2, channels, height, width)
     images = pairs.permute(0, 2, 4, 1, 5, 3, 6)
     return images.reshape(batch * 3, channels, parts * height, 2 * width)
 
@@ -59,7 +59,7 @@ def _one_side(
     """Features read from the side >= 0 where `upper_KN3`, else from the other."""
     batch = images.shape[0] // 3
     height, width = images.shape[2] // parts, images.shape[3] // 2
-    column = _texel(points_KN3[..., COLUMN], width) + width * upper_KN3
+    column = _texel(points_KN3[..., COLUMN], width) + width * ~upper_KN3
     row = _texel(points_KN3[..., ROW], height) + height * (slot_K % parts)[:, None, None]
     # grid_sample takes -1 and 1 for the outer edges of the outer texels.
     x = (2.0 * column + 1.0) / (2 * width) - 1.0

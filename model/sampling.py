@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from model.sdf import Quadrature, laplace_density, mean_density
+from model.sdf import Quadrature, fading, laplace_density, mean_density
 
 EVEN_SHARE = 0.2
 """Share of samples that are spread evenly whatever the coarse pass found."""
@@ -94,7 +94,7 @@ def _weights(distance_KM: Tensor, edges_KM: Tensor, inverse_beta: Tensor | float
     blunt_KM = COARSE_SHARPNESS / width_KM.clamp(min=torch.finfo(width_KM.dtype).tiny ** 0.25)
     sharp = blunt_KM.clamp(max=inverse_beta)
     depth_KM = laplace_density(distance_KM, sharp) * width_KM
-    weight_KM = torch.exp(depth_KM - depth_KM.cumsum(dim=1)) * -torch.expm1(-depth_KM)
+    weight_KM = fading(depth_KM.cumsum(dim=1) - depth_KM) * -torch.expm1(-depth_KM)
     even = 1.0 / weight_KM.shape[1]
     total_K1 = weight_KM.sum(dim=1, keepdim=True)
     found = torch.where(total_K1 > 1e-6, weight_KM / total_K1.clamp(min=1e-6), even)

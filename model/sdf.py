@@ -20,12 +20,22 @@ density in its middle, wrong by ALIKE^2 / 48 at most, less than the quotient wou
 """
 
 
+UNSEEN = 30.0
+"""exp(-UNSEEN) = 9e-14 is far below what float32 tells from nothing, and counts as nothing: else
+most gradients of a ray are denormal numbers, on which CPUs compute ten times slower."""
+
+
+def fading(depth: Tensor) -> Tensor:
+    """exp(-depth) for depth >= 0; 0 with slope 0 beyond `UNSEEN`."""
+    return torch.where(depth < UNSEEN, torch.exp(-depth.clamp(max=UNSEEN)), 0.0)
+
+
 def laplace_density(distance: Tensor, inverse_beta: Tensor | float) -> Tensor:
     """Density 1 / radius: half of `inverse_beta` on the surface, all of it deep inside, 0 far out.
 
-    The exponent is never positive, so no branch overflows and no gradient is inf * 0.
+    The exponential never grows, so no branch overflows and no gradient is inf * 0.
     """
-    half = 0.5 * torch.exp(-distance.abs() * inverse_beta)
+    half = 0.5 * fading(distance.abs() * inverse_beta)
     return inverse_beta * torch.where(distance >= 0, half, 1.0 - half)
 
 
@@ -39,6 +49,6 @@ def mean_density(first: Tensor, last: Tensor, inverse_beta: Tensor | float) -> T
     apart = (b - a).abs() > ALIKE
     gap = torch.where(apart, b - a, 1.0)
     inside = b.clamp(max=0.0) - a.clamp(max=0.0)
-    tail = 0.5 * (torch.exp(-a.abs()) - torch.exp(-b.abs()))
+    tail = 0.5 * (fading(a.abs()) - fading(b.abs()))
     middle = laplace_density((first + last) / 2.0, inverse_beta)
     return torch.where(apart, inverse_beta * (inside + tail) / gap, middle)

@@ -19,7 +19,7 @@ from model.kinematics import rays_at_rest, world_from_rest
 from model.precision import full, full_precision
 from model.rays import FAR, Growth, box_span, half_sides
 from model.sampling import Cells, optical_depth, placed
-from model.sdf import Quadrature
+from model.sdf import Quadrature, fading
 
 LEAST_ALPHA = 1e-3
 """Coverage below which the distance of what is seen fades to 0."""
@@ -198,8 +198,8 @@ def _segments(
 def _accumulated(segments: _Segments, cells: Cells, depth_KN: Tensor, rgb_KN3: Tensor) -> RayColors:
     before_KN = _sum_before(depth_KN)
     opacity_KN = -torch.expm1(-depth_KN)
-    weight_KN = torch.exp(-before_KN) * opacity_KN
-    shared_KN = torch.exp(-_merged_before(segments, cells.at_KN, depth_KN, before_KN)) * opacity_KN
+    weight_KN = fading(before_KN) * opacity_KN
+    shared_KN = fading(_merged_before(segments, cells.at_KN, depth_KN, before_KN)) * opacity_KN
     sight_KN4 = torch.cat([rgb_KN3, cells.at_KN[..., None]], dim=-1)
     seen_K9 = torch.cat(
         [
