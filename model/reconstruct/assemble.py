@@ -32,12 +32,12 @@ from artgen.core.surface import SurfaceSpec
 from artgen.finish import finish
 from artgen.geometry.solid import Solid, union
 from artgen.textures.images import TextureSet
-from model.reconstruct.apart import Scene, apart_at_rest, clear_ways
-from model.reconstruct.barred import bar_ways
+from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways
 from model.reconstruct.contact import contact_pieces
 from model.reconstruct.guess import ObjectGuess
 from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
 from model.reconstruct.physics import DENSITY, LEAST, forces, weights
+from model.reconstruct.scene import Scene
 from model.reconstruct.shapes import shape_of
 from model.reconstruct.skin import ColorAt, colored, nearest_color
 
@@ -46,6 +46,8 @@ CLEARANCE = 1e-3
 """m of air between parts at rest; half of what joinery leaves around a door."""
 TOLERANCE = 1e-3
 """Of the radius: how far merging triangles may move a surface."""
+MOST_TRIANGLES = 9000
+"""Of all parts before they are cut; 15,000 in a bundle weigh 3 MB."""
 BARE = SurfaceSpec(name="skin", recipe="plain")
 
 
@@ -106,8 +108,8 @@ def assemble(
         joints=tuple(_stated(joint, names) for joint in joints),
         changes=tuple(told),
     )
-    scene = apart_at_rest(scene, clearance=wishes.clearance)
-    scene = clear_ways(bar_ways(scene), clearance=wishes.clearance)
+    cutter = Cutter(wishes.clearance)
+    scene = clear_ways(apart_at_rest(scene, cutter), cutter)
     draft = _draft(scene, wishes)
     placed = canonicalize(draft)
     shift = part_bounds(placed.parts[0])[0] - part_bounds(draft.parts[0])[0]
@@ -132,8 +134,10 @@ def _solids(guess: ObjectGuess, moving: set[int]) -> tuple[dict[int, Solid], lis
     """Slot to solid, the base first; parts that do not move become pieces of the base."""
     told: list[str] = []
     solids: dict[int, Solid] = {}
+    share = MOST_TRIANGLES // (len(guess.parts) + 1)
     for part in guess.parts:
-        shape = shape_of(part, tolerance=TOLERANCE * guess.radius)
+        budget = share * (2 if part.slot == 0 else 1)
+        shape = shape_of(part, tolerance=TOLERANCE * guess.radius, triangles=budget)
         told += [f"slot {part.slot}: {change}" for change in shape.changes]
         if part.slot in moving or part.slot == 0:
             solids[part.slot] = shape.solid

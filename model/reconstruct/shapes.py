@@ -11,6 +11,8 @@ from model.reconstruct.guess import PartGuess
 
 CRUMB = 0.02
 """Pieces below this share of a part's largest piece are floaters of the field."""
+MOST_LOST = 0.05
+"""Share of its volume that a part may gain or lose by one round of merging triangles."""
 LEAST_SIDE = 0.002
 """m; a predicted box is not thinner."""
 
@@ -23,8 +25,9 @@ class Shape:
     changes: tuple[str, ...]
 
 
-def shape_of(guess: PartGuess, *, tolerance: float) -> Shape:
-    """The part as a solid whose surface lies within `tolerance` m of the predicted one."""
+def shape_of(guess: PartGuess, *, tolerance: float, triangles: int) -> Shape:
+    """The part as a solid whose surface lies within `tolerance` m of the predicted one, or within
+    as much more as brings it down to some `triangles`."""
     manifold = m3.Manifold(m3.Mesh64(np.array(guess.vertices), guess.faces.astype(np.uint64)))
     changes: list[str] = []
     if manifold.status() != m3.Error.NoError or abs(manifold.volume()) == 0.0:
@@ -36,18 +39,25 @@ def shape_of(guess: PartGuess, *, tolerance: float) -> Shape:
         changes.append("its surface was turned inside out")
         faces = guess.faces[:, ::-1].astype(np.uint64)
         manifold = m3.Manifold(m3.Mesh64(np.array(guess.vertices), faces))
-    return Shape(solid=_tidy(Solid(manifold), tolerance, changes), changes=tuple(changes))
+    return Shape(
+        solid=_tidy(Solid(manifold), tolerance, triangles, changes), changes=tuple(changes)
+    )
 
 
-def _tidy(solid: Solid, tolerance: float, changes: list[str]) -> Solid:
+def _tidy(solid: Solid, tolerance: float, triangles: int, changes: list[str]) -> Solid:
     pieces = solid.pieces()
     largest = max(piece.volume for piece in pieces)
     kept = [piece for piece in pieces if piece.volume >= CRUMB * largest]
     if len(kept) < len(pieces):
         changes.append(f"{len(pieces) - len(kept)} floating crumbs were dropped")
     whole = kept[0] if len(kept) == 1 else union(kept)
-    simple = whole.manifold.simplify(tolerance)
-    return whole if simple.is_empty() else Solid(simple)
+    moved = 0.0
+    while moved == 0.0 or whole.manifold.num_tri() > triangles:
+        simple = whole.manifold.simplify(tolerance)
+        if simple.is_empty() or abs(simple.volume() / whole.volume - 1.0) > MOST_LOST:
+            break
+        whole, moved, tolerance = Solid(simple), moved + tolerance, 1.5 * tolerance
+    return whole
 
 
 def predicted_box(guess: PartGuess) -> Solid:
@@ -57,15 +67,18 @@ def predicted_box(guess: PartGuess) -> Solid:
     return slab(middle - half, middle + half)
 
 
-def without_slivers(solid: Solid) -> Solid:
-    """The solid less pieces that booleans leave where surfaces nearly touch.
+def mended(solid: Solid, tolerance: float) -> Solid:
+    """The solid less pieces that booleans leave where surfaces nearly touch, and less triangles
+    that say nothing; its surface moves by `tolerance` m at most.
 
     Raises:
-        GeometryError: nothing else is left.
+        GeometryError: nothing is left.
     """
     pieces = solid.pieces()
     if not pieces:
         raise GeometryError("a reconstructed part vanished under its neighbors")
     largest = max(piece.volume for piece in pieces)
     kept = [piece for piece in pieces if piece.volume >= CRUMB**2 * largest]
-    return solid if len(kept) == len(pieces) else union(kept)
+    whole = solid if len(kept) == len(pieces) else union(kept)
+    simple = whole.manifold.simplify(tolerance)
+    return whole if simple.is_empty() else Solid(simple)

@@ -1,0 +1,133 @@
+"""A few convex solids that together cover a part: what is cut out of its neighbors.
+
+Cutting with the part itself would print the noise of its surface into everything it passes; a cover
+is smooth, small, and its way along a joint is a union of hulls.
+"""
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+import manifold3d as m3
+import numpy as np
+
+from artgen.core.mesh import Floats
+from artgen.geometry.normals import face_vectors
+from artgen.geometry.solid import Solid, hull, union
+
+MOST = 12
+"""Convex pieces of a cover."""
+SPARE = 0.04
+"""Share of the part's hull that the cover may hold beyond the part."""
+PLANE = 0.03
+"""Share of the surface that looks along an axis at one height and suggests a cut there."""
+BINS = 48
+"""Heights along an axis that are told apart."""
+COARSE = 1200
+"""Triangles on which cuts are tried."""
+OCTANTS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+Convex = tuple[Solid, ...]
+
+
+def convex_cover(solid: Solid, *, tolerance: float) -> Convex:
+    """Convex solids around `solid`, to `tolerance` m; cut where the hulls of both sides shrink
+    most."""
+    sketch = coarse(solid, COARSE)
+    pieces: list[tuple[Solid, Solid]] = [(sketch, solid)]
+    room = SPARE * sketch.hull().volume
+    while len(pieces) < MOST:
+        spare = [part.hull().volume - part.volume for part, _ in pieces]
+        if sum(spare) <= room:
+            break
+        worst = int(np.argmax(spare))
+        cut = _best_cut(pieces[worst][0], least=room / MOST)
+        if cut is None:
+            break
+        own, whole = pieces.pop(worst)
+        halves = zip(_split(own, *cut), _split(whole, *cut), strict=True)
+        pieces += [pair for pair in halves if not (pair[0].is_empty or pair[1].is_empty)]
+    return tuple(_plain_hull(whole, tolerance) for _, whole in pieces)
+
+
+def coarse(solid: Solid, triangles: int) -> Solid:
+    """The solid with fewer triangles, merged within more and more."""
+    reach = float(np.linalg.norm(solid.extent))
+    tolerance = 1e-4 * reach
+    while solid.manifold.num_tri() > triangles and tolerance < 0.03 * reach:
+        simple = solid.manifold.simplify(tolerance)
+        if simple.is_empty() or simple.volume() < 0.5 * solid.volume:
+            break
+        solid, tolerance = Solid(simple), 2.0 * tolerance
+    return solid
+
+
+def _plain_hull(solid: Solid, tolerance: float) -> Solid:
+    """The hull, its vertices merged within `tolerance` m."""
+    tight = solid.hull()
+    simple = tight.manifold.simplify(tolerance)
+    return tight if simple.is_empty() else Solid(simple).hull()
+
+
+def _split(solid: Solid, axis: int, height: float) -> tuple[Solid, Solid]:
+    """What lies above and below a plane across an axis."""
+    above, below = solid.manifold.split_by_plane(np.eye(3)[axis], height)
+    return Solid(above), Solid(below)
+
+
+def _best_cut(solid: Solid, *, least: float) -> tuple[int, float] | None:
+    """The plane that takes most from the hulls, if it takes `least` m3."""
+    whole = solid.hull().volume
+    best: tuple[float, tuple[int, float] | None] = (least, None)
+    for axis in range(3):
+        for height in _heights(solid, axis):
+            sides = _split(solid, axis, height)
+            if any(side.is_empty for side in sides):
+                continue
+            gain = whole - sum(side.hull().volume for side in sides)
+            if gain > best[0]:
+                best = gain, (axis, height)
+    return best[1]
+
+
+def _heights(solid: Solid, axis: int) -> Iterator[float]:
+    """Where the solid has large faces across an axis, and its quarters."""
+    mesh = solid.trimesh()
+    lower, upper = mesh.bounds[:, axis]
+    vectors = face_vectors(mesh)
+    area = np.linalg.norm(vectors, axis=1)
+    facing = np.abs(vectors[:, axis]) > 0.9 * area
+    middles = mesh.triangles[:, :, axis].mean(axis=1)
+    share, edges = np.histogram(
+        middles[facing], bins=BINS, range=(lower, upper), weights=area[facing]
+    )
+    for place in np.flatnonzero(share > PLANE * area.sum()):
+        near = facing & (middles >= edges[place]) & (middles <= edges[place + 1])
+        height = float(np.average(middles[near], weights=area[near]))
+        if lower + 1e-4 < height < upper - 1e-4:
+            yield height
+    yield from (lower + (upper - lower) * np.array([0.25, 0.5, 0.75])).tolist()
+
+
+def grown(pieces: Sequence[Solid], gap: float) -> Convex:
+    """Each convex piece with all points within `gap` m of it along each axis."""
+    return tuple(
+        hull((piece.trimesh().vertices[:, None] + gap * OCTANTS).reshape(-1, 3)) for piece in pieces
+    )
+
+
+def swept(pieces: Sequence[Solid], course: Floats) -> Solid:
+    """All that convex pieces pass through on (K, 4, 4) poses, straight from each to the next."""
+    hulls = []
+    for piece in pieces:
+        points = piece.trimesh().vertices
+        placed = points @ course[:, :3, :3].transpose(0, 2, 1) + course[:, None, :3, 3]
+        if _straight(course):
+            hulls.append(m3.Manifold.hull_points(np.concatenate([placed[0], placed[-1]])))
+        else:
+            pairs = [np.concatenate(pair) for pair in pairwise(placed)]
+            hulls += [m3.Manifold.hull_points(pair) for pair in pairs]
+    return union([Solid(own) for own in hulls])
+
+
+def _straight(course: Floats) -> bool:
+    """Whether poses differ by a shift along one line, in order."""
+    return bool((np.abs(course[:, :3, :3] - course[0, :3, :3]) < 1e-12).all())

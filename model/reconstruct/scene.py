@@ -1,0 +1,96 @@
+"""Parts and joints while they are being fitted to each other; every change makes a new value."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from artgen.articulation.states import travel
+from artgen.articulation.types import Joint, Limit, Precondition
+from artgen.geometry.solid import Solid
+from artgen.validate.sweep import Sweep, sweeps
+
+POSES = 41
+"""Places along a joint's way at which parts are cut; validators look at every second one."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """Parts and joints between them; the base is the first part, parents come before children.
+
+    Attributes:
+        rules: which joint waits for which.
+        changes: what was done so far, a sentence each.
+    """
+
+    solids: Mapping[str, Solid]
+    joints: tuple[Joint, ...]
+    rules: tuple[Precondition, ...] = ()
+    changes: tuple[str, ...] = ()
+
+    @property
+    def base(self) -> str:
+        """The fixed part."""
+        return next(iter(self.solids))
+
+    def joint(self, name: str) -> Joint:
+        """The joint of that name."""
+        return next(joint for joint in self.joints if joint.name == name)
+
+    def joint_of(self, part: str) -> Joint:
+        """The joint that moves a part."""
+        return next(joint for joint in self.joints if joint.child == part)
+
+    def carriers(self, part: str) -> set[str]:
+        """All parts that a part hangs on, directly or not."""
+        parents = {joint.child: joint.parent for joint in self.joints}
+        found = set()
+        while part in parents:
+            part = parents[part]
+            found.add(part)
+        return found
+
+    def moved_by(self, joint: str) -> set[str]:
+        """The part that a joint moves, and all that hang on it."""
+        child = self.joint(joint).child
+        return {name for name in self.solids if name == child or child in self.carriers(name)}
+
+    def way(self, joint: str, others: Mapping[str, float] | None = None) -> Sweep:
+        """A joint through its whole way while others are held."""
+        path = np.linspace(*travel(self.joint(joint)), POSES).tolist()
+        return Sweep(joint=joint, states=tuple({**(others or {}), joint: q} for q in path))
+
+    def told(self, *changes: str) -> "Scene":
+        """The same with more to tell."""
+        return dataclasses.replace(self, changes=(*self.changes, *changes))
+
+    def with_solid(self, part: str, solid: Solid) -> "Scene":
+        """The same with another shape of one part."""
+        return dataclasses.replace(self, solids={**self.solids, part: solid})
+
+    def with_rule(self, joint: str, requires: str, at_least: float) -> "Scene":
+        """The same where one joint waits for another."""
+        rule = Precondition(joint=joint, requires=requires, at_least=at_least)
+        return dataclasses.replace(self, rules=(*self.rules, rule))
+
+    def ended(self, sweep: Sweep, met: Sequence[int], what: str) -> "Scene":
+        """The same with the swept joint's way ended a step before the poses at which it meets
+        something; told where it cannot move at all."""
+        joint = self.joint(sweep.joint)
+        path = np.array([state[joint.name] for state in sweep.states])
+        rest = int(np.argmin(np.abs(path)))
+        upper = path[max(min([p for p in met if p >= rest], default=len(path)) - 1, rest)]
+        lower = path[min(max([p for p in met if p <= rest], default=-1) + 1, rest)]
+        if not lower < upper:
+            return self.told(f"{joint.name} cannot leave rest for {what}; its way was left as is")
+        limit = Limit(lower=min(float(lower), 0.0), upper=max(float(upper), 0.0))
+        ended = dataclasses.replace(joint, limit=limit)
+        joints = tuple(ended if own.name == joint.name else own for own in self.joints)
+        scene = dataclasses.replace(self, joints=joints)
+        return scene.told(f"{joint.name} ends at {upper:.3g}, where it meets {what}")
+
+
+def sweeps_of(scene: Scene, joint: str) -> list[Sweep]:
+    """What a joint is swept by: once, or with what it waits for just open and wide open."""
+    return [sweep for sweep in sweeps(scene.joints, scene.rules, POSES) if sweep.joint == joint]
