@@ -1,0 +1,1 @@
+"""Meshes of strangers: read with their materials, cleaned, split, weighed, made into pieces."""

@@ -1,0 +1,1 @@
+"""PartNet-Mobility folders: their files as values, checked, and as a ForeignObject."""
