@@ -45,8 +45,8 @@ class Checkpoint:
 
 
 def checkpoint_path(folder: Path, step: int) -> Path:
-    """Where the checkpoint after `step` updates lies."""
-    return folder / f"step_{step:08d}.safetensors"
+    """Where a run's folder keeps the checkpoint after `step` updates."""
+    return folder / "checkpoints" / f"step_{step:08d}.safetensors"
 
 
 def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
@@ -102,8 +102,9 @@ def _below(tensors: Mapping[str, Tensor], prefix: str) -> dict[str, Tensor]:
 
 
 def found_checkpoints(folder: Path) -> list[Path]:
-    """Checkpoints of a folder, oldest first."""
-    return sorted(path for path in folder.glob("step_*") if NAME.fullmatch(path.name))
+    """Checkpoints of a run's folder, oldest first."""
+    found = (folder / "checkpoints").glob("step_*")
+    return sorted(path for path in found if NAME.fullmatch(path.name))
 
 
 def prune(folder: Path, keep: int) -> None:

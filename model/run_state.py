@@ -154,7 +154,7 @@ def resume(run: Run, folder: Path) -> None:
     if not found:
         return
     checkpoint = read_checkpoint(found[-1])
-    if changed := _changed(checkpoint.config, run.settings):
+    if changed := differences(checkpoint.config, run.settings):
         raise ModelError(
             f"{found[-1]}: was made under other settings: {'; '.join(changed[:5])}; give the same "
             "ones to resume, or choose another folder"
@@ -162,13 +162,13 @@ def resume(run: Run, folder: Path) -> None:
     restore(run, checkpoint, found[-1])
 
 
-def _changed(theirs: object, ours: object, where: str = "") -> list[str]:
+def differences(theirs: object, ours: object, where: str = "") -> list[str]:
     """Where two JSON values differ, as `key: theirs, now ours`."""
     if isinstance(theirs, Mapping) and isinstance(ours, Mapping):
         return [
             line
             for key in sorted({*theirs, *ours})
-            for line in _changed(theirs.get(key), ours.get(key), f"{where}.{key}".lstrip("."))
+            for line in differences(theirs.get(key), ours.get(key), f"{where}.{key}".lstrip("."))
         ]
     return [] if theirs == ours else [f"{where} {theirs!r}, now {ours!r}"]
 

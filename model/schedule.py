@@ -39,11 +39,14 @@ class TrainConfig:
         clip_norm: largest length of the whole gradient.
         accumulation: batches whose gradients are averaged into one update.
         ema_decay: of the moving average of the weights, the one that ships.
-        precision: of the network's matrix products; the renderer computes in float32.
+        precision: of the network's matrix products.
+        field_precision: of the products that make distance and color of points; all other
+            arithmetic of the renderer is float32.
         inverse_beta: 1 / deviation of the density at the first and at the last step, 1 / radii;
             linear in between, as the paper's.
         stages: sizes of supervised images, coarse to fine.
-        samples: points per ray and part.
+        samples: points per ray and part whose distance and color are computed.
+        coarse: points per ray and part that first look for the surface; 0 spreads samples evenly.
         forced: share of the run in which rays follow the true boxes and joints; afterwards the
             predicted ones.
         perceptual: shares of the run at which the perceptual term begins and is whole.
@@ -64,9 +67,11 @@ class TrainConfig:
     accumulation: int = 1
     ema_decay: float = 0.999
     precision: Precision = "bfloat16"
+    field_precision: Precision = "float32"
     inverse_beta: tuple[float, float] = (10.0, 100.0)
     stages: tuple[Stage, ...] = (Stage(start=0.0, target_px=128),)
     samples: int = 32
+    coarse: int = 0
     forced: float = 0.5
     perceptual: tuple[float, float] = (0.3, 0.5)
     save_every: int = 500
@@ -76,12 +81,15 @@ class TrainConfig:
 
     def __post_init__(self) -> None:
         counts = (self.steps, self.accumulation, self.samples, self.save_every, self.keep)
-        if min(*counts, self.log_every) < 1 or min(self.warmup_steps, self.picture_every) < 0:
+        if (
+            min(*counts, self.log_every) < 1
+            or min(self.warmup_steps, self.picture_every, self.coarse) < 0
+        ):
             raise ModelError(
                 f"training: steps {self.steps}, accumulation {self.accumulation}, samples "
                 f"{self.samples}, save_every {self.save_every}, keep {self.keep} and log_every "
-                f"{self.log_every} must be at least 1, warmup_steps {self.warmup_steps} and "
-                f"picture_every {self.picture_every} at least 0"
+                f"{self.log_every} must be at least 1, warmup_steps {self.warmup_steps}, "
+                f"picture_every {self.picture_every} and coarse {self.coarse} at least 0"
             )
         if not 0.0 <= self.ema_decay < 1.0:
             raise ModelError(
@@ -144,6 +152,7 @@ class Moment:
         inverse_beta: 1 / radii.
         target_px: size of supervised images.
         samples: points per ray and part.
+        coarse: points per ray and part that look for the surface first.
         forced: whether rays follow the true boxes and joints.
         perceptual: factor on the perceptual term, in [0, 1].
     """
@@ -152,6 +161,7 @@ class Moment:
     inverse_beta: float
     target_px: int
     samples: int
+    coarse: int
     forced: bool
     perceptual: float
 
@@ -163,6 +173,7 @@ def moment_at(config: TrainConfig, step: int) -> Moment:
         inverse_beta=inverse_beta_at(config, step),
         target_px=stage_at(config, step).target_px,
         samples=config.samples,
+        coarse=config.coarse,
         forced=forced_at(config, step),
         perceptual=perceptual_at(config, step),
     )

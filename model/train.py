@@ -177,7 +177,7 @@ def _record(
     log: TrainLog | None,
     draw: Draw | None,
 ) -> None:
-    """Write what is due after this update; pictures need every rank."""
+    """Write what is due after this update, on the rank that leads."""
     config = run.config
     if log is not None and (run.step % config.log_every == 0 or run.step == config.steps):
         values = {
@@ -188,7 +188,6 @@ def _record(
             "seconds": run.seconds,
         }
         log.write(run.step, values)
-    if draw is not None and config.picture_every and run.step % config.picture_every == 0:
-        picture = draw(moment)
-        if log is not None:
-            log.picture(run.step, picture)
+    due = config.picture_every and run.step % config.picture_every == 0
+    if log is not None and draw is not None and due:
+        log.picture(run.step, draw(moment))

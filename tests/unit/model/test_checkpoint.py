@@ -53,12 +53,14 @@ def test_a_file_of_another_schema_is_refused(tmp_path: Path) -> None:
 
 
 def test_the_newest_are_kept_and_other_files_left(tmp_path: Path) -> None:
-    (tmp_path / "step_by_step.txt").touch()
+    other = tmp_path / "checkpoints" / "step_by_step.txt"
+    other.parent.mkdir()
+    other.touch()
     for step in (2, 30, 4):
         checkpoint_path(tmp_path, step).touch()
     prune(tmp_path, 2)
     assert found_checkpoints(tmp_path) == [checkpoint_path(tmp_path, step) for step in (4, 30)]
-    assert (tmp_path / "step_by_step.txt").exists()
+    assert other.exists()
 
 
 @pytest.mark.parametrize(
