@@ -10,6 +10,7 @@ from typing import Literal
 from artgen.core.errors import ModelError
 from artgen.core.jsonio import canonical_json
 from model.config_json import decoded
+from model.data.config import DataConfig
 from model.schedule import TrainConfig
 
 Size = Literal["nano", "s", "paper"]
@@ -17,6 +18,7 @@ Direction = Literal["image_from_part", "part_from_image", "both"]
 SelfScope = Literal["joint", "alternate"]
 SlotTokens = Literal["planes", "one"]
 SlotEmbedding = Literal["separate", "shared"]
+SlotVector = Literal["token", "mean"]
 MotionHead = Literal["vector", "state_tokens"]
 RayCode = Literal["patch", "pixel"]
 Upsampler = Literal["linear", "transposed"]
@@ -150,6 +152,8 @@ class ModelConfig:
         slots: the most parts an object can have, base included.
         slot_embedding: `separate` learns every token of every slot; `shared` learns one set and a
             vector for each slot's number. Not stated.
+        slot_vector: what a slot's articulation is read from: a `token` of its own, or the `mean` of
+            its plane tokens. Not stated.
         planes: None for articulation alone.
         motion: `vector` reads the motion of all states from a slot's vector; `state_tokens` gives
             each slot one more token for every state.
@@ -164,6 +168,7 @@ class ModelConfig:
     field: FieldConfig = dataclasses.field(default_factory=FieldConfig)
     slots: int = 8
     slot_embedding: SlotEmbedding = "separate"
+    slot_vector: SlotVector = "token"
     motion: MotionHead = "vector"
     limits: bool = False
     tree: bool = False
@@ -231,8 +236,22 @@ class Config:
     recipe: str
     size: Size
     model: ModelConfig = dataclasses.field(default_factory=ModelConfig)
+    data: DataConfig = dataclasses.field(default_factory=lambda: DataConfig(input_px=256))
     weights: LossWeights = dataclasses.field(default_factory=LossWeights)
     train: TrainConfig = dataclasses.field(default_factory=TrainConfig)
+
+    def __post_init__(self) -> None:
+        images, data = self.model.images, self.data
+        if data.input_px != images.image_px:
+            raise ModelError(
+                f"data.input_px is {data.input_px}, model.images.image_px {images.image_px}; make "
+                "them equal"
+            )
+        if data.states > images.states or data.slots > self.model.slots:
+            raise ModelError(
+                f"data has {data.states} states and {data.slots} parts; the network's tables hold "
+                f"{images.states} (model.images.states) and {self.model.slots} (model.slots)"
+            )
 
     def to_json(self) -> str:
         """Canonical JSON of the run."""

@@ -9,7 +9,9 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
+from artgen.core.errors import ModelError
 from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation, TensorBlock
+from model.field import FieldHead, PlaneField
 
 TYPE_OF_LOGIT = (PRISMATIC, REVOLUTE)
 """Joint type that each of the two logits stands for; the paper names them in this order."""
@@ -27,8 +29,10 @@ class Prediction(TensorBlock):
         origin_BP3: axis point of every slot, whatever its type.
         type_logits_BP2: prismatic, revolute (`TYPE_OF_LOGIT`).
         parent_logits_BPP: of child (row) hanging on parent (column); None without that head.
-        count_logits_BP: of 1 to P parts; None without that head.
+        count_logits_BQ: of 1, 2, ... parts, up to the number of slots; None without that head.
         planes_BP6CHW: upsampled, in order xy+ xy- yz+ yz- xz+ xz-; None without planes.
+        head: the two small networks that read the planes; None without planes.
+        limited: whether the limits are predicted; else they are zero.
     """
 
     articulation: Articulation
@@ -36,8 +40,27 @@ class Prediction(TensorBlock):
     origin_BP3: Tensor
     type_logits_BP2: Tensor
     parent_logits_BPP: Tensor | None = None
-    count_logits_BP: Tensor | None = None
+    count_logits_BQ: Tensor | None = None
     planes_BP6CHW: Tensor | None = None
+    head: FieldHead | None = None
+    limited: bool = False
+
+    def field(self) -> PlaneField:
+        """The shapes and colors of all slots, to be rendered or meshed.
+
+        Raises:
+            ModelError: the network predicts articulation alone.
+        """
+        if self.planes_BP6CHW is None or self.head is None:
+            raise ModelError(
+                "this network predicts articulation alone and has no shapes to render; train one "
+                "with planes"
+            )
+        return PlaneField(self.planes_BP6CHW, self.articulation.size_BP3, self.head)
+
+    def count(self) -> Tensor | None:
+        """(B,) the likeliest number of parts, base included; None without that head."""
+        return None if self.count_logits_BQ is None else self.count_logits_BQ.argmax(dim=1) + 1
 
     def posed_as(self, truth: Articulation) -> Articulation:
         """The predicted boxes, axes, origins and motions under the true types and parents.
