@@ -9,6 +9,7 @@ F triangles, each in front of its camera; C channels, one image of first hits ea
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import torch
 from torch import Tensor
@@ -45,7 +46,11 @@ def triangle_of(code: Tensor) -> Tensor:
 
 
 def depth_of(code: Tensor, order_F: Tensor) -> Tensor:
-    """float32 depth along the camera's z axis; 0 where nothing is hit."""
+    """float32 depth along the camera's z axis; 0 where nothing is hit.
+
+    Args:
+        order_F: as given to `first_hits`.
+    """
     hit = code >= 0
     kept = torch.where(hit, code, 0)
     nearness = (kept >> 32).to(torch.int32).view(torch.float32)
@@ -53,11 +58,19 @@ def depth_of(code: Tensor, order_F: Tensor) -> Tensor:
     return torch.where(hit, depth, 0.0)
 
 
+def projected(points_N3: Tensor, intrinsics_N33: Tensor) -> Tensor:
+    """(N, 3) points in axes of their camera (x right, y down, z forward, z > 0) as (px x, px y,
+    1 / depth)."""
+    nearness = 1.0 / points_N3[:, 2:]
+    focal = intrinsics_N33.diagonal(dim1=1, dim2=2)[:, :2]
+    place = points_N3[:, :2] * nearness * focal + intrinsics_N33[:, :2, 2]
+    return torch.cat([place, nearness], dim=1)
+
+
 def first_hits(
-    corners_F33: Tensor,
+    flat_F33: Tensor,
     order_F: Tensor,
     channel_F: Tensor,
-    intrinsics_F33: Tensor,
     *,
     channels: int,
     size: tuple[int, int],
@@ -65,37 +78,27 @@ def first_hits(
     """What every ray through a pixel's center meets first.
 
     Args:
-        corners_F33: triangle corners in axes of the camera (x right, y down, z forward, all z > 0),
-            counter-clockwise seen from outside; those that look away are skipped.
+        flat_F33: corners as `projected` gives them, counter-clockwise seen from outside; triangles
+            that look away are skipped, since bodies are closed.
         order_F: float32 rank of the triangle's body; of two in one plane the higher is seen.
         channel_F: int64 image that the triangle is drawn into.
-        intrinsics_F33: px, of the triangle's camera.
         channels: C.
         size: (height, width) px.
     """
-    code = torch.full((channels * size[0] * size[1],), -1, dtype=torch.int64)
-    code = code.to(corners_F33.device)
-    flat = _projected(corners_F33, intrinsics_F33)
-    seen = torch.nonzero(_faces_camera(flat)).squeeze(1)
+    code = torch.full(
+        (channels * size[0] * size[1],), -1, dtype=torch.int64, device=flat_F33.device
+    )
+    seen = torch.nonzero(_faces_camera(flat_F33)).squeeze(1)
     if len(seen):
-        corners = flat[seen]
-        rows = _rows(corners, size[0])
-        for part in _chunks(rows):
-            _draw(code, corners[part], order_F[seen[part]], channel_F[seen[part]], seen[part], size)
+        flat = flat_F33[seen]
+        for part in _chunks(_rows(flat, size[0])):
+            name = seen[part]
+            _draw(code, flat[part], order_F[name], channel_F[name], name, size)
     return Hits(code_CHW=code.view(channels, *size))
 
 
-def _projected(corners_F33: Tensor, intrinsics_F33: Tensor) -> Tensor:
-    """(F, 3, 3) corners as (px x, px y, 1 / depth)."""
-    nearness = 1.0 / corners_F33[..., 2]
-    focal = torch.stack([intrinsics_F33[:, 0, 0], intrinsics_F33[:, 1, 1]], dim=-1)
-    place = corners_F33[..., :2] * nearness[..., None] * focal[:, None]
-    return torch.cat([place + intrinsics_F33[:, None, :2, 2], nearness[..., None]], dim=-1)
-
-
 def _faces_camera(flat_F33: Tensor) -> Tensor:
-    """Counter-clockwise from outside is clockwise on an image whose y points down... seen from the
-    camera, so the doubled area is negative."""
+    """Counter-clockwise for an eye is clockwise where y points down: the area is negative."""
     a, b, c = flat_F33[..., :2].unbind(dim=1)
     first, second = b - a, c - a
     return first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0.0
@@ -115,7 +118,7 @@ def _chunks(rows_F2: Tensor) -> list[slice]:
     total = int(ends[-1])
     cuts = torch.arange(ROWS, max(total, ROWS), ROWS, device=ends.device)
     places = [0, *torch.searchsorted(ends, cuts).tolist(), len(ends)]
-    return [slice(a, b) for a, b in zip(places[:-1], places[1:], strict=True) if b > a]
+    return [slice(a, b) for a, b in pairwise(places) if b > a]
 
 
 def _draw(

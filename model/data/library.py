@@ -26,6 +26,7 @@ _COUNTS = ("parts", "vertices", "faces", "bodies", "looks", "facts")
 _COLUMNS = {
     "bounds": (np.float64, (2, 3)),
     "box": (np.float64, (2, 3)),
+    "sphere": (np.float64, (4,)),
     "place": (np.uint16, (3,)),
     "corner": (np.uint16, (3,)),
     "body_faces": (np.uint16, ()),
@@ -80,6 +81,7 @@ class Library(Sequence[Soup]):
 
         facts = json.loads(rows("facts", "fact").tobytes())
         lower, upper = self.columns["box"][k]
+        sphere = self.columns["sphere"][k]
         places = rows("vertices", "place").astype(np.float64) / STEPS
         counts = rows("bodies", "body_faces")
         return Soup(
@@ -89,6 +91,8 @@ class Library(Sequence[Soup]):
             joints=tuple(read_joint(joint) for joint in facts["joints"]),
             preconditions=tuple(Precondition(**rule) for rule in facts["preconditions"]),
             bounds=rows("parts", "bounds"),
+            center=sphere[:3],
+            radius=float(sphere[3]),
             vertices=(lower + places * (upper - lower)).astype(np.float32),
             faces=rows("faces", "corner").astype(np.int32),
             part=np.repeat(rows("bodies", "body_part"), counts),
@@ -132,6 +136,7 @@ def _pieces(soup: Soup) -> tuple[dict[str, NDArray[Any]], list[int]]:
     pieces: dict[str, NDArray[Any]] = {
         "bounds": soup.bounds,
         "box": box[None],
+        "sphere": np.array([[*soup.center, soup.radius]]),
         "place": _steps(soup.vertices, box),
         "corner": soup.faces.astype(np.uint16),
         "body_faces": np.diff(first, append=len(soup.faces)).astype(np.uint16),

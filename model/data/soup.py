@@ -38,6 +38,8 @@ class Soup:
     Attributes:
         parts: names in canonical order.
         bounds: (P, 2, 3) of the exact parts at rest, m, object frame.
+        center: (3,) of the sphere that holds the object in all its states, m.
+        radius: of that sphere, m.
         vertices: (V, 3) float32 m, object frame at rest.
         faces: (F, 3) int32, counter-clockwise seen from outside.
         part: (F,) uint8 which part a triangle belongs to.
@@ -52,6 +54,8 @@ class Soup:
     joints: tuple[Joint, ...]
     preconditions: tuple[Precondition, ...]
     bounds: Floats
+    center: Floats
+    radius: float
     vertices: NDArray[np.float32]
     faces: Ints
     part: NDArray[np.uint8]
@@ -62,6 +66,7 @@ class Soup:
     def __post_init__(self) -> None:
         kinds: dict[str, type[np.generic]] = {
             "bounds": np.float64,
+            "center": np.float64,
             "vertices": np.float32,
             "faces": np.int32,
             "part": np.uint8,
@@ -77,11 +82,6 @@ class Soup:
                 f"{self.asset_id}: {count} triangles with {len(self.part)} parts, {len(self.body)} "
                 f"bodies and {len(self.surface)} surfaces; each triangle has one of each"
             )
-
-    @property
-    def sphere(self) -> tuple[Floats, float]:
-        """(center (3,) m, radius m) of the sphere that holds the object in all its states."""
-        return swept_sphere(self.parts, list(self.bounds), self.joints)
 
 
 def seed_soup(category: str, seed: int, index: int, *, tolerance: float = TOLERANCE) -> Soup:
@@ -111,7 +111,7 @@ def draft_soup(draft: Draft, *, asset_id: str, tolerance: float = TOLERANCE) -> 
     draft = canonicalize(draft)
     bounds = np.stack([part_bounds(part) for part in draft.parts])
     names = tuple(part.name for part in draft.parts)
-    _, radius = swept_sphere(names, list(bounds), draft.joints)
+    center, radius = swept_sphere(names, list(bounds), draft.joints)
     rows = {surface.name: k for k, surface in enumerate(draft.surfaces)}
     bodies = [(p, body) for p, part in enumerate(draft.parts) for body in part.bodies]
     meshes = [_triangles(body, tolerance * radius) for _, body in bodies]
@@ -124,6 +124,8 @@ def draft_soup(draft: Draft, *, asset_id: str, tolerance: float = TOLERANCE) -> 
         joints=draft.joints,
         preconditions=draft.preconditions,
         bounds=bounds,
+        center=center,
+        radius=radius,
         vertices=np.concatenate([vertices for vertices, _ in meshes]).astype(np.float32),
         faces=np.concatenate([f + start for (_, f), start in zip(meshes, starts, strict=False)]),
         part=np.repeat([p for p, _ in bodies], counts),

@@ -1,0 +1,185 @@
+"""Training items from a library of soups: drawn on the CPU, ray-cast where the model trains."""
+
+import logging
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from artgen.core.conventions import ART_SLOTS
+from artgen.core.errors import ModelError
+from artgen.core.stream import Stream
+from artgen.dataset.split import Split, split_of
+from model.batch import Batch, Images, Rays
+from model.data.config import DataConfig
+from model.data.crop import window_intrinsics
+from model.data.frames import framed_images, poses
+from model.data.library import Library
+from model.data.pick import picked
+from model.data.scene import Scene, drawn_scene
+from model.data.stage import (
+    Cameras,
+    Stage,
+    cast,
+    colors,
+    depths,
+    frame_windows,
+    photographs,
+    staged,
+)
+from model.data.truth import articulation
+from model.data.views import Views
+
+log = logging.getLogger(__name__)
+
+
+class SoupSource:
+    """Items of the objects of a library that lie in a split and fit into the slots."""
+
+    def __init__(
+        self, library: Library, *, split: Split | None = None, slots: int = ART_SLOTS
+    ) -> None:
+        """Choose the objects.
+
+        Raises:
+            ModelError: no object is left.
+        """
+        self.library = library
+        inside = [k for k, name in enumerate(library.ids) if split in (None, split_of(name))]
+        counts = library.part_counts
+        self.positions = tuple(k for k in inside if counts[k] <= slots)
+        self.left_out: Mapping[str, str] = {
+            library.ids[k]: f"{counts[k]} parts, {slots} slots" for k in inside if counts[k] > slots
+        }
+        if self.left_out:
+            log.warning(
+                "%d of %d objects have more than %d parts and are left out",
+                *(len(self.left_out), len(inside), slots),
+            )
+        if not self.positions:
+            raise ModelError(
+                f"none of {len(library)} objects lies in split {split} and has at most {slots} "
+                "parts; make a larger library or raise the slots"
+            )
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def plan(self, position: int, config: DataConfig, stream: Stream) -> Scene:
+        """One item of the object at a position, drawn."""
+        return drawn_scene(self.library[self.positions[position]], config, stream)
+
+    def batch(self, planned: Sequence[Scene], config: DataConfig, device: torch.device) -> Batch:
+        """The items, cast on the device."""
+        return shown(planned, config, device)
+
+
+def shown(scenes: Sequence[Scene], config: DataConfig, device: torch.device) -> Batch:
+    """Scenes as a batch: images of their inputs, and rays through their targets."""
+    stage = staged(scenes, device)
+    inputs = _cameras([scene.inputs for scene in scenes], device)
+    rgba = photographs(stage, inputs, size=config.render_px)
+    images = framed_images(
+        rgba.view(len(scenes), config.states, config.views, *rgba.shape[2:]),
+        [scene.inputs for scene in scenes],
+        [scene.background for scene in scenes],
+        size=config.input_px,
+    )
+    return Batch(
+        images=images,
+        truth=articulation([scene.truth for scene in scenes], device),
+        radius_B=torch.tensor([scene.truth.radius for scene in scenes], device=device),
+        rays=_rays(stage, scenes, images, config) if config.rays else None,
+        asset_ids=tuple(scene.asset_id for scene in scenes),
+        categories=tuple(scene.category for scene in scenes),
+    )
+
+
+def _cameras(views: Sequence[Views], device: torch.device) -> Cameras:
+    """T x V cameras a scene."""
+    intrinsics = np.stack([view.intrinsics for view in views]).astype(np.float32)
+    items, states, count = intrinsics.shape[:3]
+    state = torch.arange(states, device=device).repeat_interleave(count)
+    return Cameras(
+        intrinsics_BN33=torch.from_numpy(intrinsics).to(device).flatten(1, 2),
+        camera_from_world_BN44=poses(views, device).flatten(1, 2),
+        state_BN=state.expand(items, -1),
+    )
+
+
+def target_cameras(
+    stage: Stage, scenes: Sequence[Scene], images: Images, config: DataConfig
+) -> Cameras:
+    """The T x W cameras whose rays supervise, at `target_px`, cropped as the inputs are."""
+    device = images.rgb_BTV3HW.device
+    others = [scene.others for scene in scenes if scene.others is not None]
+    if others:
+        raw = _cameras(others, device)
+        windows = frame_windows(stage, raw).flatten(0, 1)
+        matrices = raw.intrinsics_BN33.flatten(0, 1).double()
+        cropped = window_intrinsics(matrices, windows, size=config.target_px).float()
+        return Cameras(
+            intrinsics_BN33=cropped.view_as(raw.intrinsics_BN33),
+            camera_from_world_BN44=raw.camera_from_world_BN44,
+            state_BN=raw.state_BN,
+        )
+    chosen = torch.from_numpy(np.stack([scene.chosen for scene in scenes])).to(device)
+    item = torch.arange(len(scenes), device=device)[:, None, None]
+    state = torch.arange(config.states, device=device)[None, :, None]
+    matrices = images.intrinsics_BTV33[item, state, chosen] * (config.target_px / config.input_px)
+    matrices[..., 2, 2] = 1.0
+    return Cameras(
+        intrinsics_BN33=matrices.flatten(1, 2),
+        camera_from_world_BN44=images.camera_from_world_BTV44[item, state, chosen].flatten(1, 2),
+        state_BN=state.expand_as(chosen).flatten(1, 2),
+    )
+
+
+def _rays(stage: Stage, scenes: Sequence[Scene], images: Images, config: DataConfig) -> Rays:
+    cameras = target_cameras(stage, scenes, images, config)
+    items, count = cameras.state_BN.shape
+    code = cast(stage, cameras, size=config.target_px, parts=config.slots).code_CHW
+    code_BNPHW = code.view(items, count, config.slots, *code.shape[1:])
+    draws = torch.from_numpy(np.stack([scene.draws for scene in scenes])).to(code.device)
+    image_BR, pixel_BR = picked(code_BNPHW >= 0, draws, config)
+    item_BR = torch.arange(items, device=code.device)[:, None].expand_as(image_BR)
+    code_BRP = code_BNPHW.flatten(3)[item_BR, image_BR, :, pixel_BR]
+    sight_BR3 = cameras.sights(item_BR, image_BR, pixel_BR, config.target_px)
+    nearest_BR, first_BR = code_BRP.max(dim=2)
+    part_rgb = _part_colors(stage, cameras, code_BRP, image_BR, pixel_BR, config.target_px)
+    length = sight_BR3.norm(dim=-1)
+    return Rays(
+        origin_BR3=cameras.center_BN3[item_BR, image_BR],
+        direction_BR3=sight_BR3 / length[..., None],
+        state_BR=cameras.state_BN.gather(1, image_BR),
+        part_rgb_BPR3=part_rgb.transpose(1, 2).contiguous(),
+        part_alpha_BPR=(code_BRP >= 0).float().transpose(1, 2).contiguous(),
+        rgb_BR3=part_rgb.gather(2, first_BR[..., None, None].expand(-1, -1, 1, 3))[:, :, 0],
+        alpha_BR=(nearest_BR >= 0).float(),
+        distance_BR=depths(stage, cameras, nearest_BR) * length,
+        patch=(config.patch_px, config.patch_px) if config.patch_px else None,
+    )
+
+
+def _part_colors(
+    stage: Stage,
+    cameras: Cameras,
+    code_BRP: Tensor,
+    image_BR: Tensor,
+    pixel_BR: Tensor,
+    width: int,
+) -> Tensor:
+    """(B, R, P, 3) sRGB, zero where a part is not hit."""
+    item, ray, part = torch.nonzero(code_BRP >= 0, as_tuple=True)
+    color = torch.zeros(*code_BRP.shape, 3, device=code_BRP.device)
+    color[item, ray, part] = colors(
+        stage,
+        cameras,
+        code_BRP[item, ray, part],
+        item,
+        image_BR[item, ray],
+        pixel_BR[item, ray],
+        width,
+    )
+    return color
