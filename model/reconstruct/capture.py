@@ -1,0 +1,99 @@
+"""Images of one object with their cameras: T states by V views, foreground in alpha, all alike."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from artgen.core.errors import ModelError
+from artgen.core.mesh import Floats
+from model.reconstruct.cameras import Rig, Shot
+from model.reconstruct.masks import Bytes, Segmenter, foreground, mask_beside, read_rgba
+
+FAR_OUTSIDE = 1.0
+"""Image widths by which a principal point may lie outside; beyond, the intrinsics are of another
+size."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Capture:
+    """What was photographed.
+
+    Attributes:
+        files: T lists of V image paths.
+        rgba: (T, V, H, W, 4) uint8, sRGB, straight alpha; alpha is the foreground.
+        intrinsics: (T, V, 3, 3) px.
+        camera_from_world: (T, V, 4, 4) rigid, OpenCV axes.
+        states: numbers of the states in the camera file, ascending.
+    """
+
+    files: tuple[tuple[Path, ...], ...]
+    rgba: Bytes
+    intrinsics: Floats
+    camera_from_world: Floats
+    states: tuple[int, ...]
+
+
+def read_capture(
+    images: Path, rig: Rig, *, masks: Path | None = None, segmenter: Segmenter | None = None
+) -> Capture:
+    """The images of a rig, grouped by state in the order of the camera file.
+
+    Raises:
+        ModelError: an image is missing or of another size, has no foreground, or states have
+            unequal numbers of views.
+    """
+    by_state: dict[int, list[Shot]] = {}
+    for shot in rig.shots:
+        by_state.setdefault(shot.state, []).append(shot)
+    states = sorted(by_state)
+    counts = {state: len(by_state[state]) for state in states}
+    if len(set(counts.values())) != 1:
+        told = ", ".join(f"state {state}: {count}" for state, count in counts.items())
+        raise ModelError(
+            f"{rig.file}: states have unequal numbers of views ({told}); give each as many, and "
+            "check the state of every image"
+        )
+    grid = [by_state[state] for state in states]
+    files = tuple(tuple(images / shot.image for shot in row) for row in grid)
+    pictures = [
+        [_picture(images, shot, masks=masks, segmenter=segmenter) for shot in row] for row in grid
+    ]
+    _check_sizes(files, pictures)
+    return Capture(
+        files=files,
+        rgba=np.array(pictures),
+        intrinsics=np.array([[shot.intrinsics for shot in row] for row in grid]),
+        camera_from_world=np.array([[shot.camera_from_world for shot in row] for row in grid]),
+        states=tuple(states),
+    )
+
+
+def _picture(images: Path, shot: Shot, *, masks: Path | None, segmenter: Segmenter | None) -> Bytes:
+    path = images / shot.image
+    rgba = read_rgba(path)
+    height, width = rgba.shape[:2]
+    x, y = shot.intrinsics[0, 2] / width - 0.5, shot.intrinsics[1, 2] / height - 0.5
+    if max(abs(x), abs(y)) > 0.5 + FAR_OUTSIDE:
+        raise ModelError(
+            f"{path}: its principal point {shot.intrinsics[:2, 2].tolist()} lies far outside of "
+            f"{width} x {height} px; scale the intrinsics with the image"
+        )
+    mask = None
+    if masks is not None:
+        mask = mask_beside(masks, shot.image)
+    elif shot.mask is not None:
+        mask = images / shot.mask
+    return foreground(rgba, path, mask=mask, segmenter=segmenter)
+
+
+def _check_sizes(files: tuple[tuple[Path, ...], ...], pictures: list[list[Bytes]]) -> None:
+    first = pictures[0][0].shape[:2]
+    for paths, row in zip(files, pictures, strict=True):
+        for path, picture in zip(paths, row, strict=True):
+            if picture.shape[:2] != first:
+                raise ModelError(
+                    f"{path} is {picture.shape[1]} x {picture.shape[0]} px, {files[0][0]} is "
+                    f"{first[1]} x {first[0]}; make all images of one size and scale their "
+                    "intrinsics"
+                )
