@@ -1,4 +1,4 @@
-"""A bundle read back as a finished object: vertices of its OBJ files, UV and surfaces of its GLB."""
+"""A bundle read back as a finished object: vertices of its OBJ files, looks of its GLB."""
 
 import dataclasses
 from collections.abc import Sequence

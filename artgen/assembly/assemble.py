@@ -1,0 +1,341 @@
+"""A template whose fronts and handles come from donors: chosen, fitted, checked, tried again."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from artgen.articulation.types import ArticulatedObject, Joint, Part, Precondition
+from artgen.assembly.choice import Group, Market
+from artgen.assembly.clash import clashing
+from artgen.assembly.fill import Fill, Misfit, filled, gripped, handle_on, middle_grip
+from artgen.assembly.library import Entry
+from artgen.assembly.licence import Licence, most_restrictive
+from artgen.assembly.looks import (
+    Looks,
+    body_surface,
+    drawn_looks,
+    front_surface,
+    handle_surface,
+    stuff_of,
+)
+from artgen.assembly.piece import Piece, joined, weighed
+from artgen.assembly.placing import Named, placed
+from artgen.assembly.shape_hash import looks_hash, object_hash, shape_hash, tree_hash
+from artgen.assembly.source import Member, Source
+from artgen.assembly.surface_table import Change, SurfaceTable
+from artgen.assembly.uv_fix import areas
+from artgen.core.stream import Stream
+from artgen.core.surface import SurfaceSpec
+from artgen.finish import ATLAS_RESOLUTION
+from artgen.geometry.unwrap import atlas_uv
+
+DONORS = 5
+"""Donors that a group tries before it keeps its own fronts."""
+HANDLES = 4
+"""Handles that an object tries before each front keeps its own."""
+ROUNDS = 12
+"""Times that an object is put together and checked before it is given up."""
+OWN = 0.5
+"""An object that keeps a greater share of its own fronts is no new one."""
+MAIN = 0.1
+"""Least share of a base's surface that a wood or paint covers to be its main one."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Assembled:
+    """A new object before it is unwrapped and weighed, and what it is made from.
+
+    Attributes:
+        sources: for each slot filled, what filled it, as JSON.
+        tried: reasons for which something else was taken before.
+    """
+
+    category: str
+    template: str
+    parts: tuple[Named, ...]
+    joints: tuple[Joint, ...]
+    preconditions: tuple[Precondition, ...]
+    surfaces: tuple[SurfaceSpec, ...]
+    licence: Licence
+    donors: tuple[str, ...]
+    sources: tuple[Mapping[str, Any], ...]
+    tried: tuple[str, ...]
+
+    @property
+    def hashes(self) -> dict[str, str]:
+        """Of tree, shapes and looks, and of the three together."""
+        labels = {name: label for name, label, _ in self.parts}
+        tree = tree_hash(labels, self.joints, self.parts[0][0])
+        shapes = [shape_hash(piece.mesh) for _, _, piece in self.parts]
+        looks = looks_hash(self.surfaces)
+        boxes = [piece.bounds for _, _, piece in self.parts]
+        whole = object_hash(tree, shapes, boxes, looks)
+        return {"tree": tree, "looks": looks, "object": whole}
+
+
+@dataclass(frozen=True, kw_only=True)
+class GivenUp:
+    """No object came of a template and a stream, and why."""
+
+    template: str
+    reason: str
+    tried: tuple[str, ...] = ()
+
+
+@dataclass(kw_only=True)
+class _Plan:
+    """What is tried next: a place in the order of donors for each group (None: it keeps its own),
+    and one in the order of handles (None: each front keeps its own)."""
+
+    donors: list[int | None]
+    handle: int | None = 0
+    tried: list[str] = field(default_factory=list)
+
+    def next_donor(self, group: int, groups: Sequence[Group], why: str) -> None:
+        """The next donor of a group, or none."""
+        self.tried.append(why)
+        place = self.donors[group]
+        last = min(DONORS, len(groups[group].donors)) - 1
+        self.donors[group] = None if place is None or place >= last else place + 1
+
+    def next_handle(self, count: int, why: str) -> None:
+        """The next handle, or none."""
+        self.tried.append(why)
+        last = min(HANDLES, count) - 1
+        self.handle = None if self.handle is None or self.handle >= last else self.handle + 1
+
+
+def assembled(market: Market, template: str, stream: Stream) -> Assembled | GivenUp:
+    """A new object; depends on the library, the template's id and the stream alone."""
+    source = market.library.source(template)
+    groups = market.groups(template, stream.child("groups"))
+    split = next(e.split for e in market.library.entries if e.source == template)
+    handles = market.handle_order(split, stream.child("handles"))
+    looks = drawn_looks(stream.child("looks"))
+    plan = _Plan(donors=[0 if group.donors else None for group in groups])
+    plan.tried += [f"{_named(group)}: no donor suits" for group in groups if not group.donors]
+    for _ in range(ROUNDS):
+        slots = sum(len(group.slots) for group in groups)
+        kept = sum(
+            len(g.slots) for g, place in zip(groups, plan.donors, strict=True) if place is None
+        )
+        if not slots or kept > OWN * slots:
+            reason = f"{kept} of {slots} fronts would be the template's own"
+            return GivenUp(template=template, reason=reason, tried=tuple(plan.tried))
+        found = _Attempt(market, source, groups, handles, looks, plan).object()
+        if isinstance(found, Assembled):
+            return found
+    reason = f"nothing fits in {ROUNDS} rounds"
+    return GivenUp(template=template, reason=reason, tried=tuple(plan.tried))
+
+
+def _named(group: Group) -> str:
+    return ", ".join(slot.name for slot in group.slots)
+
+
+class _Attempt:
+    """One round: everything put together as the plan says; faults move the plan on."""
+
+    def __init__(
+        self,
+        market: Market,
+        source: Source,
+        groups: Sequence[Group],
+        handles: Sequence[Entry],
+        looks: Looks,
+        plan: _Plan,
+    ) -> None:
+        self.market, self.source, self.groups = market, source, groups
+        self.handles, self.looks, self.plan = handles, looks, plan
+        self.table = SurfaceTable()
+        self.main = main_surfaces(source)
+        self.group_of = {s.name: k for k, g in enumerate(groups) for s in g.slots}
+        self.told: list[Mapping[str, Any]] = []
+        self.licences = [source.licence]
+        self.donors = {source.family}
+
+    def object(self) -> Assembled | None:
+        """The object, or None where something does not fit; the plan has then moved on."""
+        parts: list[Named] = [(self.source.base_name, "base", self._base(self.source.base))]
+        for member in self.source.members:
+            piece = self._part(member)
+            if piece is None:
+                return None
+            parts.append((member.name, member.label, piece))
+        named, joints = placed(parts, [member.joint for member in self.source.members])
+        pieces = {name: piece for name, _, piece in named}
+        rules = self.source.preconditions
+        if clash := clashing(self.source.base_name, joints, rules, pieces):
+            self._move_on(clash)
+            return None
+        return Assembled(
+            category=self.source.category,
+            template=self.source.id,
+            parts=tuple(named),
+            joints=tuple(joints),
+            preconditions=rules,
+            surfaces=tuple(self.table.surfaces),
+            licence=most_restrictive(self.licences),
+            donors=tuple(sorted(self.donors)),
+            sources=tuple(self.told),
+            tried=tuple(self.plan.tried),
+        )
+
+    def _move_on(self, clash: tuple[str, str]) -> None:
+        """Another handle or donor for one of two parts that meet; rounds take them in turn."""
+        why = f"{clash[0]} meets {clash[1]}"
+        involved = [self.group_of[name] for name in clash if name in self.group_of]
+        changed = [k for k in involved if self.plan.donors[k] is not None]
+        if changed and (self.plan.handle is None or len(self.plan.tried) % 2 == 0):
+            self.plan.next_donor(changed[0], self.groups, why)
+        elif self.plan.handle is not None:
+            self.plan.next_handle(len(self.handles), why)
+        elif changed:
+            self.plan.next_donor(changed[0], self.groups, why)
+        else:
+            self.plan.donors = [None] * len(self.groups)  # Its own parts meet: nothing helps.
+            self.plan.tried.append(why)
+
+    def _base(self, piece: Piece) -> Piece:
+        return self.table.take(piece, self.source.surfaces, self._for_body)
+
+    def _for_body(self, surface: SurfaceSpec) -> SurfaceSpec:
+        return body_surface(surface, self.main, self.looks)
+
+    def _part(self, member: Member) -> Piece | None:
+        """All bodies of a moving part; None where its donor or the handle does not fit."""
+        group = self.group_of.get(member.name)
+        place = None if group is None else self.plan.donors[group]
+        if group is None or (member.kind == "whole" and place is None):
+            change: Change = self._for_body
+            pieces = [self.table.take(p, self.source.surfaces, change) for p in member.pieces]
+            return _with_grips(joined(pieces), member)
+        donor_source, donor = self.source, member
+        if place is not None:
+            entry = self.groups[group].donors[place]
+            donor_source = self.market.library.source(entry.source)
+            donor = donor_source.members[entry.number]
+        try:
+            fill = filled(member, donor, donor_source.surfaces)
+        except Misfit as misfit:
+            self.plan.next_donor(
+                group, self.groups, f"{member.name} from {donor_source.id}: {misfit}"
+            )
+            return None
+        try:
+            handle = self._handle(member, donor, fill)
+        except Misfit as misfit:
+            self.plan.next_handle(len(self.handles), f"{member.name}: {misfit}")
+            return None
+        body = self.table.take(fill.body, donor_source.surfaces, self._for_front)
+        if place is not None:
+            self._tell(member, donor_source, donor, fill)
+        works = [self.table.take(p, self.source.surfaces, self._for_works)
+                 for p in (member.works,) if p is not None]  # fmt: skip
+        return _with_grips(joined([body, *([handle] if handle else []), *works]), member)
+
+    def _handle(self, member: Member, donor: Member, fill: Fill) -> Piece | None:
+        """The handle of a slot, in slots of the table; None where its front needs none."""
+        if member.kind == "whole" or member.side == "along" or _edged(donor):
+            return None
+        if member.handle is None and (donor.handle is None or self._waits(member)):
+            return None
+        if self.plan.handle is None:
+            if member.handle is None:
+                return None
+            source, part = self.source, member
+        else:
+            entry = self.handles[self.plan.handle]
+            source = self.market.library.source(entry.source)
+            part = source.members[entry.number]
+            self.donors.add(source.family)
+            self.licences.append(source.licence)
+        mounted = middle_grip(handle_on(member, fill.body.mesh, donor, part), member.name)
+        self.told.append({"part": member.name, "piece": "handle", "source": source.id,
+                          "of": part.name, "licence": source.licence.id})  # fmt: skip
+        return self.table.take(mounted, source.surfaces, self._for_handle)
+
+    def _waits(self, member: Member) -> bool:
+        return any(rule.joint == member.joint.name for rule in self.source.preconditions)
+
+    def _for_front(self, surface: SurfaceSpec) -> SurfaceSpec:
+        return front_surface(surface, self.looks)
+
+    def _for_handle(self, surface: SurfaceSpec) -> SurfaceSpec:
+        return handle_surface(surface, self.looks)
+
+    def _for_works(self, surface: SurfaceSpec) -> SurfaceSpec:
+        return surface
+
+    def _tell(self, member: Member, source: Source, donor: Member, fill: Fill) -> None:
+        self.donors.add(source.family)
+        self.licences.append(source.licence)
+        self.told.append(
+            {
+                "part": member.name,
+                "piece": donor.kind,
+                "source": source.id,
+                "of": donor.name,
+                "licence": source.licence.id,
+                "scale": [round(float(s), 6) for s in fill.scale],
+                "mirrored": fill.mirrored,
+            }
+        )
+
+
+def _edged(donor: Member) -> bool:
+    """Whether a front is gripped at its own edge."""
+    return any(grip.kind == "edge" for grip in donor.body.grips)
+
+
+def _with_grips(piece: Piece, member: Member) -> Piece:
+    return dataclasses.replace(piece, grips=gripped(piece, member.name, member.joint))
+
+
+def main_surfaces(source: Source) -> tuple[str, ...]:
+    """Names of the woods and paints that make up a base."""
+    mesh = source.base.mesh
+    covered = np.bincount(
+        np.asarray(mesh.slot), weights=areas(mesh.triangles), minlength=len(source.surfaces)
+    )
+    return tuple(
+        surface.name
+        for surface, area in zip(source.surfaces, covered, strict=True)
+        if stuff_of(surface) in ("wood", "paint") and area >= MAIN * covered.sum()
+    )
+
+
+def finished(new: Assembled, *, asset_id: str, provenance: Mapping[str, Any]) -> ArticulatedObject:
+    """An assembled object unwrapped onto an atlas and weighed, with where its parts come from."""
+    pieces = [(piece.mesh.vertices, piece.mesh.faces) for _, _, piece in new.parts]
+    atlas = atlas_uv(pieces, resolution=ATLAS_RESOLUTION)
+    return ArticulatedObject(
+        category=new.category,
+        asset_id=asset_id,
+        parts=tuple(
+            Part(
+                name=name,
+                label=label,
+                mesh=dataclasses.replace(piece.mesh, atlas=uv),
+                collision=piece.collision,
+                mass=weighed(piece),
+                densities=piece.densities,
+                grips=piece.grips,
+            )
+            for (name, label, piece), uv in zip(new.parts, atlas, strict=True)
+        ),
+        joints=new.joints,
+        surfaces=new.surfaces,
+        preconditions=new.preconditions,
+        provenance={
+            **provenance,
+            "template": new.template,
+            "donors": new.donors,
+            "sources": new.sources,
+            "licence": new.licence,
+            "hashes": new.hashes,
+        },
+    )

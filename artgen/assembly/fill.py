@@ -1,0 +1,134 @@
+"""One slot filled: a donor's body fitted, a handle mounted, the template's works behind."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from artgen.articulation.types import Grip, Joint
+from artgen.assembly.fit import box_map, fitted, flat_triangles
+from artgen.assembly.handles import mounted, place_of
+from artgen.assembly.looks import stuff_of
+from artgen.assembly.piece import Piece
+from artgen.assembly.source import Member
+from artgen.assembly.uv_fix import areas, gradients, quarter_turned, unit_normals
+from artgen.core.mesh import Floats, TriMesh
+from artgen.core.surface import SurfaceSpec
+from artgen.export.kinematics import vector
+
+NO_ARM = 0.005
+"""m; a grip nearer to its joint's axis is turned and pulled nowhere."""
+BOARD = 0.6
+"""Least share of a front's face that one body covers for its grain to be that of the front."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fill:
+    """What fills a slot.
+
+    Attributes:
+        body: fitted; slots are those of the donor.
+        scale: (3,) of its box.
+        mirrored: left and right were exchanged.
+    """
+
+    body: Piece
+    scale: Floats
+    mirrored: bool
+
+
+class Misfit(Exception):
+    """A donor or a handle does not suit a slot after all, and why."""
+
+
+def filled(slot: Member, donor: Member, surfaces: Sequence[SurfaceSpec]) -> Fill:
+    """A donor's body on the box of a slot's; `surfaces` are the donor's.
+
+    Raises:
+        Misfit: triangles collapse.
+    """
+    mirrored = donor.side != slot.side
+    how = box_map(donor.body, slot.body.bounds, mirrored=mirrored)
+    body = fitted(donor.body, how)
+    if flat_triangles(body.mesh.vertices, body.mesh.faces):
+        raise Misfit("triangles collapse")
+    if slot.kind == "front":
+        body = with_grain(body, donor.body, surfaces)
+    return Fill(body=body, scale=how.scale, mirrored=mirrored)
+
+
+def with_grain(body: Piece, donor: Piece, surfaces: Sequence[SurfaceSpec]) -> Piece:
+    """The grain of a single wooden board along its longer side if it ran so on the donor: turned
+    by 90 degrees on the two faces where the sides have changed places."""
+    before, after = (np.diff(p.bounds, axis=0)[0] for p in (donor, body))
+    if (before[0] >= before[2]) == (after[0] >= after[2]):
+        return body
+    mesh = donor.mesh
+    wood = [k for k, s in enumerate(surfaces) if stuff_of(s) == "wood"]
+    normals, weight = unit_normals(mesh.triangles), areas(mesh.triangles)
+    face = (normals[:, 1] < -0.99) & np.isin(np.asarray(mesh.slot), wood)
+    covered = np.bincount(np.asarray(mesh.body)[face], weights=weight[face])
+    if not len(covered) or covered.max() < BOARD * before[0] * before[2]:
+        return body
+    own = np.asarray(mesh.body) == int(np.argmax(covered))
+    u = gradients(mesh.triangles[own & face], np.asarray(mesh.uv)[own & face])[:, 0]
+    along = np.abs((u * weight[own & face, None]).sum(axis=0))
+    if (along[0] >= along[2]) != (before[0] >= before[2]):
+        return body
+    flat = own & (np.abs(normals[:, 1]) > 0.99)
+    turned = dataclasses.replace(body.mesh, uv=quarter_turned(body.mesh, flat))
+    return dataclasses.replace(body, mesh=turned)
+
+
+def handle_on(slot: Member, front: TriMesh, donor: Member, handle: Member) -> Piece:
+    """A handle on a fitted front: `donor` gave the front, `handle` is the part that it comes from.
+
+    Raises:
+        Misfit: it does not fit, or would hang in the air.
+    """
+    if handle.handle is None:
+        raise Misfit(f"{handle.name} has no handle")
+    own, here = (np.diff(m.bounds, axis=0)[0] for m in (handle.body.mesh, front))
+    scale = float(np.sqrt(here[0] * here[2] / (own[0] * own[2])))
+    place = place_of(slot, donor, front.bounds)
+    found = mounted(handle.handle, place, front, scale=scale)
+    if found is None:
+        raise Misfit("no handle fits on the front")
+    return found
+
+
+def gripped(piece: Piece, name: str, joint: Joint) -> tuple[Grip, ...]:
+    """The grips of a new part: named after it, pulled as its joint moves; one in the middle of a
+    handle whose source states none."""
+    return tuple(
+        dataclasses.replace(
+            grip,
+            name=f"{name}_grip" + (f"_{count}" if count > 1 else ""),
+            pull=pull_at(grip, joint),
+        )
+        for count, grip in enumerate(piece.grips, start=1)
+    )
+
+
+def pull_at(grip: Grip, joint: Joint) -> tuple[float, float, float]:
+    """Unit vector along which a grip starts to move as its joint opens; as stated where it has no
+    arm."""
+    way = np.array(joint.axis)
+    if joint.type != "prismatic":
+        way = np.cross(joint.axis, np.subtract(grip.position, joint.origin))
+    length = float(np.linalg.norm(way))
+    return grip.pull if length < NO_ARM else vector(np.round(way / length, 15) + 0.0)
+
+
+def middle_grip(handle: Piece, name: str) -> Piece:
+    """A handle of a source that states no grips, with one at the front of its middle."""
+    if handle.grips:
+        return handle
+    box = handle.bounds
+    depth = float(box[0, 1] + 0.25 * (box[1, 1] - box[0, 1]))
+    at = (float(box[:, 0].mean()), depth, float(box[:, 2].mean()))
+    grip = Grip(
+        name=name, kind="handle", position=at, outward=(0.0, -1.0, 0.0), pull=(0.0, -1.0, 0.0)
+    )
+    return dataclasses.replace(handle, grips=(grip,))

@@ -1,0 +1,108 @@
+"""Where a library's sources come from: our own generators, and bundles of any origin."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from artgen.articulation.canonical import canonicalize
+from artgen.assembly.finished import finished_object
+from artgen.assembly.licence import licence_of
+from artgen.assembly.source import Source, source_of_draft, source_of_object
+from artgen.core.errors import UsageError
+from artgen.core.stream import Stream
+from artgen.export import read_bundle
+from artgen.export.layout import MANIFEST
+from artgen.finish import Rounder
+from artgen.generators import load_builder
+from artgen.rules import load_rule, sample
+
+EMBEDDED: Mapping[str, int] = {
+    "storage_furniture": 72,
+    "cabinet": 48,
+    "dishwasher": 4,
+    "microwave": 4,
+    "oven": 4,
+    "refrigerator": 4,
+    "safe": 2,
+}
+"""Objects of each category in the embedded library."""
+SEED = 6
+"""Of the embedded library."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Made:
+    """One object of our own generators."""
+
+    category: str
+    index: int
+    seed: int = SEED
+
+    @property
+    def asset_id(self) -> str:
+        """Unique among all seeds; the family that splits tell apart."""
+        return f"{self.category}_{self.seed}_{self.index:06d}"
+
+
+def embedded(counts: Mapping[str, int] = EMBEDDED, seed: int = SEED) -> list[Made]:
+    """What the embedded library is built from."""
+    return [
+        Made(category=category, index=index, seed=seed)
+        for category, count in counts.items()
+        for index in range(count)
+    ]
+
+
+def made_source(made: Made, rounder: Rounder) -> Source:
+    """An object of our generators, taken apart while it is still a draft.
+
+    Raises:
+        RuleError: its rule allows no such object. GeometryError: it cannot be finished.
+    """
+    rule, builder = load_rule(made.category), load_builder(made.category)
+    drawn = sample(
+        rule,
+        Stream(made.seed, made.category, made.index),
+        params_type=builder.params_type,
+        invariants=builder.invariants,
+    )
+    draft = canonicalize(builder.build(drawn.params, drawn.surfaces))
+    return source_of_draft(draft, id=made.asset_id, rounder=rounder)
+
+
+def bundle_source(folder: Path) -> Source:
+    """A bundle on disk, taken apart body by body.
+
+    Raises:
+        ExportError: it is damaged.
+    """
+    obj = finished_object(folder)
+    stated = obj.provenance.get("source")
+    origin = stated if isinstance(stated, Mapping) else {}
+    dataset = str(origin.get("dataset", "artgen"))
+    own = str(origin.get("id", obj.asset_id))
+    return source_of_object(
+        obj,
+        id=f"{dataset}_{own}".replace("/", "_").replace(" ", "_"),
+        licence=licence_of(obj.provenance),
+        dataset=dataset,
+        family=obj.asset_id if dataset == "artgen" else f"{dataset}:{own}",
+    )
+
+
+def bundle_folders(places: Sequence[Path]) -> Iterator[Path]:
+    """Folders of bundles at or below some places, sorted.
+
+    Raises:
+        UsageError: a place does not exist or holds none.
+    """
+    for place in places:
+        found = sorted(path.parent for path in place.rglob(MANIFEST)) if place.is_dir() else []
+        if not found:
+            raise UsageError(f"{place}: holds no bundle; make some with generate or ingest")
+        yield from found
+
+
+def is_assembled(folder: Path) -> bool:
+    """Whether a bundle is itself made of others' parts; such are no sources."""
+    return bool(read_bundle(folder).manifest.get("donors"))
