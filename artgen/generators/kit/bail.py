@@ -16,7 +16,6 @@ CORNER = 0.003
 """m; by which corners of contact boxes leave the hoop's line."""
 STEPS = 14
 """Legs of the polyline between an ear and the middle."""
-"""m; above the axis, legs are straight so far, beside the ears."""
 FALL = math.radians(2.0)
 """By which a hoop is lowered at a time until it meets the rim."""
 ROUND = 2.7
