@@ -3,8 +3,9 @@
 import io
 import json
 import zlib
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from typing import Any, overload
 from zipfile import BadZipFile
@@ -48,13 +49,14 @@ class Library(Sequence[Soup]):
             bytes of facts.
         ids: asset id of every position.
         categories: of every position.
-        part_counts: of every position.
+        made: what it was asked for, as JSON has it; empty where it was put together by hand.
     """
 
     columns: dict[str, NDArray[Any]]
     starts: NDArray[np.int64]
     ids: tuple[str, ...]
     categories: tuple[str, ...]
+    made: Mapping[str, object] = field(default_factory=dict)
 
     @property
     def part_counts(self) -> NDArray[np.int64]:
@@ -167,7 +169,12 @@ def _steps(vertices: NDArray[np.float32], box: Floats) -> NDArray[np.uint16]:
 
 def write_library(path: Path, library: Library) -> None:
     """Write one npz file, atomically; equal libraries give equal bytes."""
-    names = {"schema": SCHEMA, "ids": library.ids, "categories": library.categories}
+    names = {
+        "schema": SCHEMA,
+        "ids": library.ids,
+        "categories": library.categories,
+        "made": library.made,
+    }
     stored = dict(library.columns)
     for name in ("place", "corner"):
         # Differences between neighbors, column by column, take 40 % fewer bytes; 16 bits wrap.
@@ -214,10 +221,11 @@ def read_library(path: Path) -> Library:
         starts=starts,
         ids=tuple(names["ids"]),
         categories=tuple(names["categories"]),
+        made=names["made"],
     )
 
 
-def joined(libraries: Sequence[Library]) -> Library:
+def joined(libraries: Sequence[Library], *, made: Mapping[str, object] | None = None) -> Library:
     """One library of all, in order."""
     first = np.cumsum(
         [np.zeros(len(_COUNTS), np.int64), *(part.starts[-1] for part in libraries)], 0
@@ -229,11 +237,7 @@ def joined(libraries: Sequence[Library]) -> Library:
         starts=np.concatenate(
             [first[:1], *(part.starts[1:] + at for part, at in zip(libraries, first, strict=False))]
         ),
-        ids=tuple(_chain(part.ids for part in libraries)),
-        categories=tuple(_chain(part.categories for part in libraries)),
+        ids=tuple(chain.from_iterable(part.ids for part in libraries)),
+        categories=tuple(chain.from_iterable(part.categories for part in libraries)),
+        made=made or {},
     )
-
-
-def _chain(groups: Iterator[tuple[str, ...]]) -> Iterator[str]:
-    for group in groups:
-        yield from group
