@@ -1,0 +1,204 @@
+"""Pieces: convex collision for closed bodies and shells, by cuts along the axes.
+
+A body whose hull it nearly fills is its own piece. Others are cut where that saves the most room,
+the emptiest piece first, until all are full enough or there are as many as allowed. A shell is
+full if its hull is no thicker than a wall; so hollows of open surfaces stay open.
+"""
+
+import heapq
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import manifold3d as m3
+import numpy as np
+
+from artgen.core.conventions import VERTEX_DECIMALS
+from artgen.core.errors import GeometryError
+from artgen.core.mesh import Floats, TriMesh
+from artgen.geometry.measure import welded
+from artgen.geometry.solid import slab
+from artgen.ingest.meshes.clean import Body
+
+FULL = 0.9
+"""Of its hull that a solid fills which stands for its own piece."""
+WALL = 0.02
+"""Of the part's diagonal: a shell whose hull is thinner than this in the mean is full."""
+SHEET = 1e-3
+"""m; thickness of the piece of a flat shell."""
+PLACES = 14
+"""Places along an axis at which a cut is tried."""
+GAIN = 0.97
+"""A cut that leaves more of the boxes' volume than this saves nothing; the longest side is halved
+then."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Chunk:
+    """A piece of a body: surface triangles (F, 3, 3), its solid if the body was closed, its hull,
+    and how much of the hull is empty beyond what is allowed, m3."""
+
+    corners: Floats
+    solid: m3.Manifold | None
+    hull: m3.Manifold
+    excess: float
+
+
+def convex_pieces(bodies: Sequence[Body], *, most: int) -> tuple[TriMesh, ...]:
+    """Convex meshes that together cover a part's bodies: one a body, and up to `most` cuts more;
+    those that lie within others are left out."""
+    corners = np.concatenate([body.soup.vertices for body in bodies])
+    wall = WALL * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    waiting: list[tuple[float, int, Chunk]] = []
+    for number, body in enumerate(bodies):
+        chunk = _chunk(body.soup.vertices[body.soup.faces], _solid(body), wall)
+        heapq.heappush(waiting, (-chunk.excess, number, chunk))
+    serial, cuts = len(bodies), 0
+    while cuts < most and waiting[0][0] < 0.0:
+        _, _, chunk = heapq.heappop(waiting)
+        halves = list(_halves(chunk, wall))
+        if len(halves) < 2:
+            halves = [_settled(chunk)]
+        for half in halves:
+            heapq.heappush(waiting, (-half.excess, serial, half))
+            serial += 1
+        cuts += 1
+    found = [chunk for _, _, chunk in sorted(waiting, key=lambda entry: entry[1])]
+    return tuple(_mesh(chunk) for chunk in _uncovered(found))
+
+
+def _solid(body: Body) -> m3.Manifold | None:
+    if not body.closed:
+        return None
+    return m3.Manifold(m3.Mesh64(np.array(body.soup.vertices), body.soup.faces.astype(np.uint64)))
+
+
+def _chunk(corners: Floats, solid: m3.Manifold | None, wall: float) -> Chunk:
+    if solid is not None:
+        hull = solid.hull()
+        return Chunk(
+            corners=corners,
+            solid=solid,
+            hull=hull,
+            excess=float(FULL * hull.volume() - solid.volume()),
+        )
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    lift = SHEET / 2.0 * (normal / length.clip(min=1e-300)[:, None])[:, None]
+    hull = m3.Manifold.hull_points(np.concatenate([corners + lift, corners - lift]).reshape(-1, 3))
+    allowed = max(float(length.sum()) / 4.0 * wall, wall**3)
+    return Chunk(corners=corners, solid=None, hull=hull, excess=float(hull.volume() - allowed))
+
+
+def _settled(chunk: Chunk) -> Chunk:
+    """A chunk that is not cut again."""
+    return Chunk(corners=chunk.corners, solid=chunk.solid, hull=chunk.hull, excess=0.0)
+
+
+def _halves(chunk: Chunk, wall: float) -> Iterator[Chunk]:
+    """Both sides of the best cut that are not empty."""
+    axis, place = best_cut(chunk.corners, wall)
+    if chunk.solid is None:
+        for side in clipped(chunk.corners, axis, place):
+            if len(side):
+                yield _chunk(side, None, wall)
+        return
+    normal = np.eye(3)[axis]
+    for half in chunk.solid.split_by_plane(normal, place):
+        if not half.is_empty() and half.volume() > 0.0:
+            mesh = half.to_mesh64()
+            points = np.asarray(mesh.vert_properties, np.float64)[:, :3]
+            yield _chunk(points[np.asarray(mesh.tri_verts, np.int64)], half, wall)
+
+
+def best_cut(corners: Floats, wall: float) -> tuple[int, float]:
+    """Axis and place of the plane that leaves the least volume of boxes on both its sides."""
+    lower, upper = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    pad = np.full(3, wall / 4.0)
+    whole = float(np.prod(upper - lower + pad))
+    best, found = GAIN * whole, (int(np.argmax(upper - lower)), np.nan)
+    for axis in range(3):
+        for place in _places(corners[..., axis], wall):
+            boxes = [np.ptp(side.reshape(-1, 3), axis=0) + pad
+                     for side in clipped(corners, axis, place) if len(side)]  # fmt: skip
+            volume = float(sum(np.prod(box) for box in boxes))
+            if len(boxes) == 2 and volume < best:
+                best, found = volume, (axis, place)
+    axis, place = found
+    return axis, float((lower[axis] + upper[axis]) / 2.0) if np.isnan(place) else place
+
+
+def _places(values: Floats, wall: float) -> Floats:
+    """Places just beside those where vertices are, which is where walls end."""
+    at = np.unique(np.round(values, 6))
+    if len(at) > PLACES:
+        at = at[np.linspace(0, len(at) - 1, PLACES).astype(int)]
+    beside = np.concatenate([at - wall / 4.0, at + wall / 4.0])
+    margin = 1e-6 + 0.01 * wall
+    return np.unique(beside[(beside > at[0] + margin) & (beside < at[-1] - margin)])
+
+
+def clipped(corners: Floats, axis: int, place: float) -> tuple[Floats, Floats]:
+    """Triangles (F, 3, 3) above and below a plane across an axis; those it crosses are cut."""
+    height = corners[..., axis] - place
+    above, below = (height >= 0.0).all(axis=1), (height <= 0.0).all(axis=1)
+    crossing = ~(above | below)
+    tops, bottoms = [corners[above]], [corners[below & ~above]]
+    if crossing.any():
+        own, level = corners[crossing], height[crossing]
+        lone = np.where((level > 0.0).sum(axis=1) == 1, level.argmax(axis=1), level.argmin(axis=1))
+        order = (lone[:, None] + np.arange(3)) % 3
+        tip, left, right = np.take_along_axis(own, order[..., None], axis=1).transpose(1, 0, 2)
+        a, b, c = np.take_along_axis(level, order, axis=1).T
+        on_left = tip + (a / (a - b))[:, None] * (left - tip)
+        on_right = tip + (a / (a - c))[:, None] * (right - tip)
+        tips = np.stack([tip, on_left, on_right], axis=1)
+        rest = np.concatenate([
+            np.stack([on_left, left, right], axis=1), np.stack([on_left, right, on_right], axis=1)
+        ])  # fmt: skip
+        up = a > 0.0
+        tops += [tips[up], rest[np.tile(~up, 2)]]
+        bottoms += [tips[~up], rest[np.tile(up, 2)]]
+    return np.concatenate(tops), np.concatenate(bottoms)
+
+
+def _uncovered(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """Chunks whose hull does not lie within another's; of equal ones the first."""
+    meshes = [chunk.hull.to_mesh64() for chunk in chunks]
+    points = [np.asarray(mesh.vert_properties, np.float64)[:, :3] for mesh in meshes]
+    boxes = np.array(
+        [[p.min(axis=0), p.max(axis=0)] if len(p) else np.zeros((2, 3)) for p in points]
+    )
+    kept: list[int] = []
+    order = np.argsort([-chunk.hull.volume() for chunk in chunks], kind="stable")
+    for index in order.tolist():
+        near = [
+            k
+            for k in kept
+            if (boxes[k, 0] <= boxes[index, 0] + 1e-9).all()
+            and (boxes[k, 1] >= boxes[index, 1] - 1e-9).all()
+        ]
+        if not any((chunks[index].hull - chunks[k].hull).is_empty() for k in near):
+            kept.append(index)
+    return [chunks[k] for k in sorted(kept)]
+
+
+def _mesh(chunk: Chunk) -> TriMesh:
+    """The hull on the grid of vertices; the box of the chunk where the hull has no volume."""
+    mesh = chunk.hull.to_mesh64()
+    points = np.asarray(mesh.vert_properties, np.float64)[:, :3]
+    if len(points) >= 4:
+        faces = np.asarray(mesh.tri_verts, np.int32)
+        points, faces = welded(np.round(points, VERTEX_DECIMALS) + 0.0, faces)
+        hull = m3.Manifold.hull_points(points)
+        if hull.volume() > SHEET**3:
+            again = hull.to_mesh64()
+            return TriMesh(
+                vertices=np.asarray(again.vert_properties, np.float64)[:, :3],
+                faces=np.asarray(again.tri_verts, np.int32),
+            )
+    lower, upper = chunk.corners.min(axis=(0, 1)), chunk.corners.max(axis=(0, 1))
+    if not np.isfinite([lower, upper]).all():
+        raise GeometryError("a body without extent has no collision piece")
+    middle, half = (lower + upper) / 2.0, np.maximum(upper - lower, SHEET) / 2.0
+    lower, upper = (np.round(corner, VERTEX_DECIMALS) for corner in (middle - half, middle + half))
+    return slab(lower, upper).trimesh()

@@ -1,0 +1,28 @@
+"""What the user decides of every object that comes in."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """Settings of an ingest.
+
+    Attributes:
+        meters_per_unit: None takes the source's, or assumes one by category.
+        max_parts: the smallest parts beyond are fixed to what carries them.
+        density: kg/m3 of everything, as no source states it.
+        thickness: m that open surfaces weigh as.
+        pieces: cuts that a part's collision may take.
+        rests: object's id, then number of the moved part, to q that is closed, as the source
+            counts: degrees or units.
+        licence: identifier of the terms of the source; None leaves it to the data set.
+    """
+
+    meters_per_unit: float | None = None
+    max_parts: int = 40
+    density: float = 500.0
+    thickness: float = 0.004
+    pieces: int = 24
+    rests: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    licence: str | None = None

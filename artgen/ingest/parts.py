@@ -1,0 +1,167 @@
+"""Parts: cleaned bodies as finished parts of ours, in canonical order and under names of theirs."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from artgen.articulation.canonical import canonical_order
+from artgen.articulation.types import Part
+from artgen.core.conventions import UV_DECIMALS
+from artgen.core.errors import IngestError
+from artgen.core.mesh import Floats, TriMesh
+from artgen.finish import ATLAS_RESOLUTION
+from artgen.geometry.unwrap import atlas_uv, metric_uv
+from artgen.ingest.foreign import ForeignObject
+from artgen.ingest.meshes.clean import Body, Outside, Washed, bodies_of, welded_soup
+from artgen.ingest.meshes.pieces import convex_pieces
+from artgen.ingest.meshes.soup import Soup
+from artgen.ingest.meshes.weigh import weighed
+from artgen.ingest.options import Options
+from artgen.ingest.placing import Place
+from artgen.ingest.reading import ReadMeshes
+from artgen.ingest.surfaces import Surfaces
+
+MOST_BODIES = 30_000
+"""Bodies of one part; their numbers have 16 bits."""
+Bodies = Mapping[str, Sequence[Body]]
+"""Part name of the source to its bodies, in the object frame at rest."""
+
+
+def cleaned(foreign: ForeignObject, meshes: ReadMeshes, place: Place) -> tuple[Bodies, Washed]:
+    """Bodies of all parts, welded, told apart and facing outward, and what that took.
+
+    Raises:
+        IngestError: a part has no triangle left, or falls into too many bodies.
+    """
+    found: dict[str, list[Body]] = {}
+    washed = Washed()
+    for part in foreign.parts:
+        own: list[Body] = []
+        for shape in part.shapes:
+            if shape not in meshes.soups:
+                continue
+            soup, first = welded_soup(_moved(meshes.soups[shape], place, part.name))
+            bodies, second = bodies_of(soup, shape.leaf)
+            own += bodies
+            washed = washed + first + second
+        if not own:
+            raise IngestError(f"{part.name} ({part.word}): no triangle of it has an area")
+        if len(own) > MOST_BODIES:
+            raise IngestError(f"{part.name} ({part.word}) falls into {len(own)} bodies; weld it")
+        found[part.name] = own
+    outside = Outside([body for own in found.values() for body in own])
+    for name, own in found.items():
+        faced = []
+        for body in own:
+            if not body.closed:
+                body, turned = outside.facing_out(body)
+                washed = washed + Washed(turned=turned, unsure=int(not body.certain))
+            faced.append(body)
+        found[name] = faced
+    return found, washed
+
+
+def _moved(soup: Soup, place: Place, part: str) -> Soup:
+    return Soup(
+        vertices=place.points(part, soup.vertices),
+        faces=soup.faces,
+        uv=soup.uv,
+        look=soup.look,
+        looks=soup.looks,
+    )
+
+
+def ordered_names(bodies: Bodies, labels: Mapping[str, str]) -> dict[str, str]:
+    """Source's part name to ours, in canonical order: the role, numbered where it repeats."""
+    listed = list(bodies)
+    boxes = [_box(bodies[name]) for name in listed]
+    order = [listed[k] for k in canonical_order(boxes)]
+    count = Counter(labels[name] for name in order)
+    seen: Counter[str] = Counter()
+    names = {}
+    for name in order:
+        label = labels[name]
+        seen[label] += 1
+        names[name] = label if count[label] == 1 else f"{label}_{seen[label]}"
+    return names
+
+
+def _box(bodies: Sequence[Body]) -> Floats:
+    points = np.concatenate([body.soup.vertices for body in bodies])
+    return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+def finished_parts(
+    bodies: Bodies,
+    names: Mapping[str, str],
+    labels: Mapping[str, str],
+    surfaces: Surfaces,
+    options: Options,
+) -> tuple[Part, ...]:
+    """Meshes with both UV sets, collision pieces and mass, in the order of `names`.
+
+    Raises:
+        GeometryError: the atlas cannot be packed, or a part has no mass.
+    """
+    meshes = {name: part_mesh(bodies[name], surfaces) for name in names}
+    atlas = atlas_uv(
+        [(mesh.vertices, mesh.faces) for mesh in meshes.values()], resolution=ATLAS_RESOLUTION
+    )
+    parts = []
+    for (name, mesh), uv in zip(meshes.items(), atlas, strict=True):
+        own = bodies[name]
+        solid = all(body.closed for body in own)
+        parts.append(
+            Part(
+                name=names[name],
+                label=labels[name],
+                mesh=TriMesh(
+                    vertices=mesh.vertices,
+                    faces=mesh.faces,
+                    uv=mesh.uv,
+                    atlas=uv,
+                    slot=mesh.slot,
+                    body=mesh.body,
+                ),
+                collision=convex_pieces(own, most=options.pieces),
+                mass=weighed(own, density=options.density, thickness=options.thickness),
+                densities=(options.density,) * len(own) if solid else None,
+            )
+        )
+    return tuple(parts)
+
+
+def part_mesh(bodies: Sequence[Body], surfaces: Surfaces) -> TriMesh:
+    """All bodies of a part in one mesh; texture coordinates as meters on the tile of each surface,
+    by projection where the source has none."""
+    starts = np.cumsum([0, *(len(body.soup.vertices) for body in bodies)])
+    slots = [
+        np.array([surfaces.slots[look.digest] for look in body.soup.looks])[body.soup.look]
+        for body in bodies
+    ]
+    tiles = np.array([spec.tile for spec in surfaces.specs])
+    return TriMesh(
+        vertices=np.concatenate([body.soup.vertices for body in bodies]),
+        faces=np.concatenate(
+            [body.soup.faces + start for body, start in zip(bodies, starts, strict=False)]
+        ),
+        uv=np.concatenate(
+            [
+                _uv(body.soup, tiles[slot], place)
+                for place, (body, slot) in enumerate(zip(bodies, slots, strict=True))
+            ]
+        ),
+        slot=np.concatenate(slots),
+        body=np.repeat(np.arange(len(bodies)), [len(body.soup.faces) for body in bodies]),
+    )
+
+
+def _uv(soup: Soup, tile: Floats, place: int) -> Floats:
+    """(F, 3, 2) m; `tile` is (F, 2)."""
+    stated = np.isfinite(soup.uv).all(axis=(1, 2))
+    uv = np.round(soup.uv * tile[:, None, :], UV_DECIMALS)
+    if not stated.all():
+        faces = np.asarray(soup.faces, np.int32)
+        uv[~stated] = metric_uv(soup.vertices, faces, grain=None, place=place)[~stated]
+    return uv
