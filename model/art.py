@@ -26,7 +26,7 @@ from model.heads import (
 )
 from model.kinematics import unit
 from model.plane_head import PlaneHead
-from model.precision import full_precision
+from model.precision import full, full_precision
 from model.prediction import TYPE_OF_LOGIT, Prediction, with_types
 from model.tokens import ImageTokenizer, SlotTokens
 from model.tree import parents
@@ -76,7 +76,7 @@ class Art(nn.Module):
         _, read_BPKD = self.trunk(image_BFND, part_BPKD, valid_BP)
         slot_BPD, by_state, places = self.slots.split(read_BPKD)
         with full_precision(slot_BPD):
-            prediction = self._read(slot_BPD.float(), by_state, states, valid_BP)
+            prediction = self._read(full(slot_BPD), by_state, states, valid_BP)
         return dataclasses.replace(
             prediction,
             count_logits_BQ=None if self.count is None else self.count(image_BFND),

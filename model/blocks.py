@@ -4,8 +4,6 @@ B objects, F images of an object (states times views), N tokens of an image, P p
 of a slot, D channels. Every block is residual and normalizes what it reads, not what it adds to.
 """
 
-from itertools import cycle, islice
-
 import torch
 from torch import Tensor, nn
 from torch.utils.checkpoint import checkpoint
@@ -39,10 +37,12 @@ class Reading(nn.Module):
 class CrossBlock(nn.Module):
     """ART's cross-attention layer: image tokens read part tokens, or the other way, or both."""
 
-    def __init__(self, trunk: Trunk) -> None:
+    def __init__(self, trunk: Trunk, *, image_goes_on: bool) -> None:
         super().__init__()
-        self.part_reads = Reading(trunk) if trunk.direction != "image_from_part" else None
-        self.image_reads = Reading(trunk) if trunk.direction != "part_from_image" else None
+        asks = trunk.direction
+        self.part_reads = Reading(trunk) if asks != "image_from_part" else None
+        image_reads = asks != "part_from_image" and image_goes_on
+        self.image_reads = Reading(trunk) if image_reads else None
 
     def forward(
         self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor
@@ -59,69 +59,83 @@ class CrossBlock(nn.Module):
 class SelfBlock(nn.Module):
     """ART's self-attention layer over the concatenation of both streams.
 
-    With `within`, tokens see those of their own image or of their own part alone.
+    With `within`, tokens see those of their own image or of their own part alone. Where no part
+    reads images any more, image tokens are seen but stay as they are.
     """
 
-    def __init__(self, trunk: Trunk, *, within: bool) -> None:
+    def __init__(self, trunk: Trunk, *, within: bool, image_goes_on: bool) -> None:
         super().__init__()
-        self.within = within
-        self.norm_image, self.norm_part = norm(trunk.width), norm(trunk.width)
+        self.within, self.image_goes_on = within, image_goes_on
+        self.norm_part, self.norm_mlp_part = norm(trunk.width), norm(trunk.width)
         self.attention = Attention(trunk.width, trunk.heads, qk_norm=trunk.qk_norm)
-        self.norm_mlp_image, self.norm_mlp_part = norm(trunk.width), norm(trunk.width)
-        self.mlp_image = Mlp(trunk.width, trunk.mlp_ratio)
-        self.mlp_part = self.mlp_image if trunk.shared_mlp else Mlp(trunk.width, trunk.mlp_ratio)
+        self.mlp_part = Mlp(trunk.width, trunk.mlp_ratio)
+        if image_goes_on or not within:
+            self.norm_image = norm(trunk.width)
+        if image_goes_on:
+            self.norm_mlp_image = norm(trunk.width)
+            shared = trunk.shared_mlp
+            self.mlp_image = self.mlp_part if shared else Mlp(trunk.width, trunk.mlp_ratio)
 
     def forward(
         self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor
     ) -> tuple[Tensor, Tensor]:
         """Both streams."""
-        image, part = self.norm_image(image_BFND), self.norm_part(part_BPKD)
-        read = self._within(image, part) if self.within else self._jointly(image, part, valid_BP)
-        image_BFND, part_BPKD = image_BFND + read[0], part_BPKD + read[1]
-        return (
-            image_BFND + self.mlp_image(self.norm_mlp_image(image_BFND)),
-            part_BPKD + self.mlp_part(self.norm_mlp_part(part_BPKD)),
-        )
+        reads = self._within if self.within else self._jointly
+        image_read, part_read = reads(image_BFND, part_BPKD, valid_BP)
+        part_BPKD = part_BPKD + part_read
+        part_BPKD = part_BPKD + self.mlp_part(self.norm_mlp_part(part_BPKD))
+        if image_read is not None:
+            image_BFND = image_BFND + image_read
+            image_BFND = image_BFND + self.mlp_image(self.norm_mlp_image(image_BFND))
+        return image_BFND, part_BPKD
 
     def _jointly(
         self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor
-    ) -> tuple[Tensor, Tensor]:
-        image, part = image_BFND.flatten(1, 2), part_BPKD.flatten(1, 2)
+    ) -> tuple[Tensor | None, Tensor]:
+        image = self.norm_image(image_BFND).flatten(1, 2)
+        part = self.norm_part(part_BPKD).flatten(1, 2)
         part_valid = _of_tokens(valid_BP, part_BPKD.shape[2])
-        image_valid = part_valid.new_ones(image.shape[:2])
+        valid = torch.cat([part_valid.new_ones(image.shape[:2]), part_valid], dim=1)
         tokens = torch.cat([image, part], dim=1)
-        read = self.attention(tokens, tokens, torch.cat([image_valid, part_valid], dim=1))
-        count = image.shape[1]
+        if not self.image_goes_on:
+            return None, self.attention(part, tokens, valid).view_as(part_BPKD)
+        read, count = self.attention(tokens, tokens, valid), image.shape[1]
         return read[:, :count].view_as(image_BFND), read[:, count:].view_as(part_BPKD)
 
-    def _within(self, image_BFND: Tensor, part_BPKD: Tensor) -> tuple[Tensor, Tensor]:
-        image, part = image_BFND.flatten(0, 1), part_BPKD.flatten(0, 1)
-        return (
-            self.attention(image, image).view_as(image_BFND),
-            self.attention(part, part).view_as(part_BPKD),
-        )
+    def _within(
+        self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor
+    ) -> tuple[Tensor | None, Tensor]:
+        part = self.norm_part(part_BPKD).flatten(0, 1)
+        part_read = self.attention(part, part).view_as(part_BPKD)
+        if not self.image_goes_on:
+            return None, part_read
+        image = self.norm_image(image_BFND).flatten(0, 1)
+        return self.attention(image, image).view_as(image_BFND), part_read
 
 
 class TrunkBlocks(nn.Module):
-    """All blocks, in the pattern of the settings."""
+    """All blocks, in the layout of the settings."""
 
     def __init__(self, trunk: Trunk) -> None:
         super().__init__()
         self.recompute = trunk.recompute
+        readers = "S" if trunk.direction == "image_from_part" else "SX"
         self.blocks = nn.ModuleList()
-        selves = 0
-        for letter in islice(cycle(trunk.pattern), trunk.blocks):
+        for index, letter in enumerate(trunk.layout):
+            goes_on = any(later in readers for later in trunk.layout[index + 1 :])
             if letter == "X":
-                self.blocks.append(CrossBlock(trunk))
+                self.blocks.append(CrossBlock(trunk, image_goes_on=goes_on))
             else:
-                within = trunk.scope == "alternate" and selves % 2 == 1
-                self.blocks.append(SelfBlock(trunk, within=within))
-                selves += 1
+                within = letter == "W"
+                self.blocks.append(SelfBlock(trunk, within=within, image_goes_on=goes_on))
 
     def forward(
         self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor
     ) -> tuple[Tensor, Tensor]:
-        """Both streams after the last block; slots that are not valid are read by nobody."""
+        """Both streams after the last block; slots that are not valid are read by nobody.
+
+        The image tokens are those that the last reading part saw.
+        """
         streams = image_BFND, part_BPKD
         for block in self.blocks:
             if self.recompute and self.training:

@@ -142,6 +142,25 @@ class Trunk:
             raise ModelError(f"trunk: pattern {self.pattern!r} must consist of X and S")
         if self.width % self.heads:
             raise ModelError(f"trunk: {self.heads} heads do not divide a width of {self.width}")
+        layout = self.layout
+        if self.direction == "image_from_part" and "X" in layout[layout.rfind("S") + 1 :]:
+            raise ModelError(
+                f"trunk: blocks {layout} end in cross-attention that no part reads any more; let "
+                "the last X be followed by an S, or let parts ask"
+            )
+
+    @property
+    def layout(self) -> str:
+        """A letter for each block: X cross-, S joint self-attention, W self-attention within."""
+        tiled = (self.pattern * self.blocks)[: self.blocks]
+        if self.scope == "joint":
+            return tiled
+        letters, selves = list(tiled), 0
+        for index, letter in enumerate(letters):
+            if letter == "S":
+                letters[index] = "SW"[selves % 2]
+                selves += 1
+        return "".join(letters)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,6 +4,7 @@ B objects, T states, P part slots, F images of N tokens, M = F * N, Q queries, D
 sizes, digits a length. Lengths in radii: the paper's r is 1.
 """
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -13,13 +14,15 @@ from torch import Tensor, nn
 from model.attention import norm
 from model.blocks import Reading
 from model.config import ModelConfig
+from model.precision import full
 
 REFUSED = -1e9
 """Logit of what cannot be; finite, so that a row of nothing else has a softmax."""
 USUAL_LIMITS = (0.01, 0.2)
 """Size of lower and upper limit, in units of motion, that an untrained network predicts."""
-COUNT_READINGS = 4
-"""Of the network that counts parts: the images, one another, the images, one another."""
+COUNT_READINGS = 2
+"""Of the network that counts parts: the images, then one another."""
+COUNT_MLP_RATIO = 1.0
 
 
 def within_sphere(raw: Tensor) -> Tensor:
@@ -119,7 +122,8 @@ class CountHead(nn.Module):
     def __init__(self, config: ModelConfig) -> None:
         super().__init__()
         self.query_QD = nn.Parameter(torch.zeros(config.slots, config.trunk.width))
-        self.readings = nn.ModuleList(Reading(config.trunk) for _ in range(COUNT_READINGS))
+        trunk = dataclasses.replace(config.trunk, mlp_ratio=COUNT_MLP_RATIO)
+        self.readings = nn.ModuleList(Reading(trunk) for _ in range(COUNT_READINGS))
         self.norm = norm(config.trunk.width)
         self.logit = nn.Linear(config.slots * config.trunk.width, config.slots)
 
@@ -130,4 +134,4 @@ class CountHead(nn.Module):
         for index, reading in enumerate(self.readings):
             query_BQD = reading(query_BQD, query_BQD if index % 2 else image_BMD)
         logits: Tensor = self.logit(self.norm(query_BQD).flatten(1))
-        return logits.float()
+        return full(logits)

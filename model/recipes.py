@@ -32,7 +32,15 @@ MODELS: Mapping[Size, ModelConfig] = {
     ),
     "s": ModelConfig(
         images=ImageTokens(image_px=128, patch_px=16, alpha=True, encoder="conv"),
-        trunk=Trunk(width=256, blocks=16, heads=8, direction="part_from_image", scope="alternate"),
+        trunk=Trunk(
+            width=256,
+            blocks=16,
+            heads=8,
+            direction="part_from_image",
+            scope="alternate",
+            shared_mlp=True,
+        ),
+        slot_embedding="shared",
         planes=PlaneConfig(grid=8, scale=8, channels=16),
         field=OURS,
         motion="state_tokens",

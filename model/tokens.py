@@ -12,6 +12,7 @@ from artgen.core.errors import ModelError
 from model.batch import Images
 from model.config import ImageTokens, ModelConfig
 from model.encoders import Encoder, make_encoder
+from model.precision import full, full_precision
 from model.rays import pixel_rays, plucker
 
 PLANES = 6
@@ -59,7 +60,7 @@ class ImageTokenizer(nn.Module):
         bfloat16, neighboring patches would share their ray."""
         config = self.config
         step = config.patch_px if config.rays == "patch" else 1
-        with torch.autocast(images.rgb_BTV3HW.device.type, enabled=False):
+        with full_precision(images.rgb_BTV3HW):
             side = config.image_px // step
             middles = (torch.arange(side, device=images.rgb_BTV3HW.device) + 0.5) * step
             y, x = torch.meshgrid(middles, middles, indexing="ij")
@@ -83,7 +84,7 @@ class ImageTokenizer(nn.Module):
         with torch.set_grad_enabled(torch.is_grad_enabled() and encoder.learned):
             features = encoder(frames)
         on_grid = functional.interpolate(
-            features.float(),
+            full(features),
             size=(side, side),
             mode="bilinear",
             align_corners=False,
@@ -132,17 +133,17 @@ class SlotTokens(nn.Module):
         grids = config.planes is not None and config.planes.tokens == "planes"
         self.places = PLANES * config.planes.grid**2 if config.planes and grids else 0
         self.own = 0 if config.slot_vector == "mean" and self.places else 1
-        self.by_state = config.motion == "state_tokens"
         count, width = self.own + self.places, config.trunk.width
         sets = config.slots if config.slot_embedding == "separate" else 1
         self.token_PKD = nn.Parameter(torch.zeros(sets, count, width))
         self.number_PD = nn.Parameter(torch.zeros(config.slots, width))
-        self.state = nn.Linear(config.images.state_dim, width, bias=False)
+        by_state = config.motion == "state_tokens"
+        self.state = nn.Linear(config.images.state_dim, width, bias=False) if by_state else None
 
     def forward(self, objects: int, slots: int, state_TE: Tensor) -> Tensor:
         """(B, P, K, D) for the first P slots; `state_TE` holds the states' learned vectors."""
         tokens = self.token_PKD[:slots] + self.number_PD[:slots, None]
-        if self.by_state:
+        if self.state is not None:
             by_state = self.number_PD[:slots, None] + self.state(state_TE)
             tokens = torch.cat([tokens[:, : self.own], by_state, tokens[:, self.own :]], dim=1)
         return tokens.expand(objects, -1, -1, -1)
@@ -150,7 +151,7 @@ class SlotTokens(nn.Module):
     def split(self, tokens_BPKD: Tensor) -> tuple[Tensor, Tensor | None, Tensor | None]:
         """The vector of each slot (B, P, D), its state tokens (B, P, T, D), its plane tokens."""
         end = tokens_BPKD.shape[2] - self.places
-        by_state = tokens_BPKD[:, :, self.own : end] if self.by_state else None
+        by_state = tokens_BPKD[:, :, self.own : end] if self.state is not None else None
         planes = tokens_BPKD[:, :, end:] if self.places else None
         if self.own:
             return tokens_BPKD[:, :, 0], by_state, planes
