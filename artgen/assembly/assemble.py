@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from artgen.articulation.types import ArticulatedObject, Joint, Part, Precondition
-from artgen.assembly.choice import Group, Market
+from artgen.assembly.choice import OWN, Group, Market
 from artgen.assembly.clash import clashing
 from artgen.assembly.fill import Fill, Misfit, filled, gripped, handle_on, middle_grip
 from artgen.assembly.library import Entry
@@ -38,8 +38,6 @@ HANDLES = 4
 """Handles that an object tries before each front keeps its own."""
 ROUNDS = 12
 """Times that an object is put together and checked before it is given up."""
-OWN = 0.5
-"""An object that keeps a greater share of its own fronts is no new one."""
 MAIN = 0.1
 """Least share of a base's surface that a wood or paint covers to be its main one."""
 

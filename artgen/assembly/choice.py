@@ -24,8 +24,13 @@ ALIKE = 0.05
 """Slots whose sides agree within this share are of one group."""
 ONE_DONOR = 0.8
 """Chance that all slots of a group take one donor."""
-ONE_STYLE = 0.5
+ONE_STYLE = 0.7
 """Chance that all groups of an object take donors of one source where it has some."""
+OWN = 0.5
+"""An object that keeps a greater share of its own fronts is no new one."""
+EDGED = 0.2
+"""Chance that an object prefers fronts that are gripped at their own edges; else it prefers fronts
+with handles."""
 ROUNDS = 12
 """Of evening out the use of donors; it changes by under 1 % in the last."""
 
@@ -63,14 +68,22 @@ class Market:
 
     def __init__(self, library: Library, categories: Sequence[str]) -> None:
         self.library = library
-        self.template_ids = tuple(library.templates(categories))
+        self._candidates = library.templates(categories)
         self.donors = tuple(entry for entry in library.entries if is_slot(entry))
         self.handles = tuple(_distinct(entry for entry in library.entries if entry.handle))
 
     @cached_property
+    def template_ids(self) -> tuple[str, ...]:
+        """Templates of which more than half of the slots have a donor."""
+        suited: dict[str, list[bool]] = defaultdict(list)
+        for (template, _), places in self.suitable.items():
+            suited[template].append(bool(places))
+        return tuple(id for id in self._candidates if np.mean(suited[id]) > OWN)
+
+    @cached_property
     def suitable(self) -> Mapping[tuple[str, int], tuple[int, ...]]:
         """(template, number) to the places in `donors` of those that suit the slot."""
-        chosen = set(self.template_ids)
+        chosen = set(self._candidates)
         by_kind: dict[tuple[str, str, str], list[int]] = defaultdict(list)
         for place, donor in enumerate(self.donors):
             by_kind[donor.label, donor.kind, donor.split].append(place)
@@ -112,27 +125,29 @@ class Market:
         sources = sorted({d.source for s in slots for d in self._suited(s)})
         one_style = bool(sources) and rng.random() < ONE_STYLE
         style = sources[int(rng.integers(len(sources)))] if one_style else None
+        edged = bool(rng.random() < EDGED)
+        ordered = (self._ordered(group, stream.child("donor", k)) for k, group in enumerate(alike))
         return [
-            Group(slots=tuple(group), donors=self._ordered(group, style, stream.child("donor", k)))
-            for k, group in enumerate(alike)
+            Group(
+                slots=tuple(group),
+                donors=tuple(sorted(donors, key=lambda d: (d.edge != edged, d.source != style))),
+            )
+            for group, donors in zip(alike, ordered, strict=True)
         ]
 
     def _suited(self, slot: Entry) -> list[Entry]:
         return [self.donors[place] for place in self.suitable[slot.source, slot.number]]
 
-    def _ordered(
-        self, group: Sequence[Entry], style: str | None, stream: Stream
-    ) -> tuple[Entry, ...]:
-        """Donors that suit every slot of a group: those of a style first, then drawn by weight."""
+    def _ordered(self, group: Sequence[Entry], stream: Stream) -> list[Entry]:
+        """Donors that suit every slot of a group, drawn by weight."""
         places = [self.suitable[slot.source, slot.number] for slot in group]
         common = sorted(set(places[0]).intersection(*places[1:]))
         if not common:
-            return ()
+            return []
         # Drawing without replacement by weight is sorting by log(uniform) / weight (Efraimidis and
         # Spirakis 2006).
         draw = np.log(stream.generator().random(len(common))) / self.weights[common]
-        ranked = [self.donors[common[k]] for k in np.argsort(-draw)]
-        return tuple(sorted(ranked, key=lambda donor: donor.source != style))
+        return [self.donors[common[k]] for k in np.argsort(-draw)]
 
     def handle_order(self, split: str, stream: Stream) -> list[Entry]:
         """Handles of a split in the order in which they are tried."""

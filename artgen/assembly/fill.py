@@ -19,6 +19,8 @@ from artgen.export.kinematics import vector
 
 NO_ARM = 0.005
 """m; a grip nearer to its joint's axis is turned and pulled nowhere."""
+GROWTH = 0.5
+"""A handle grows with this power of its front's scale: hands do not grow with drawers."""
 BOARD = 0.6
 """Least share of a front's face that one body covers for its grain to be that of the front."""
 
@@ -90,7 +92,7 @@ def handle_on(slot: Member, front: TriMesh, donor: Member, handle: Member) -> Pi
     if handle.handle is None:
         raise Misfit(f"{handle.name} has no handle")
     own, here = (np.diff(m.bounds, axis=0)[0] for m in (handle.body.mesh, front))
-    scale = float(np.sqrt(here[0] * here[2] / (own[0] * own[2])))
+    scale = float((here[0] * here[2] / (own[0] * own[2])) ** (GROWTH / 2.0))
     place = place_of(slot, donor, front.bounds)
     found = mounted(handle.handle, place, front, scale=scale)
     if found is None:

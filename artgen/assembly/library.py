@@ -160,18 +160,29 @@ def _entry(
 
 
 def write_library(folder: Path, sources: Iterable[Source], *, recipe: object) -> str:
-    """Write every source, then the index, then library.json; the digest of the whole.
+    """Write every source, then the index, then library.json; the digest of the whole."""
+    added = []
+    for source in sources:
+        write_source(folder, source)
+        added.append(source.id)
+    return seal_library(folder, added, recipe=recipe)
+
+
+def seal_library(folder: Path, ids: Iterable[str], *, recipe: object) -> str:
+    """The index of sources that lie in the folder, then library.json; the digest of the whole.
+
+    Of sources of one shape in two splits the later one's rows are left out, so that no shape is
+    seen in both.
 
     Args:
         recipe: what the library is built from, as JSON; told in library.json.
     """
     rows: list[Entry] = []
     digests: dict[str, str] = {}
-    for source in sources:
-        write_source(folder, source)
-        digests[source.id] = file_hash(folder / "sources" / f"{source.id}.json")
-        rows += entries_of(source)
-    rows.sort(key=lambda row: (row.source, row.number))
+    for id in sorted(ids):
+        rows += entries_of(read_source(folder, id))
+        digests[id] = file_hash(folder / "sources" / f"{id}.json")
+    rows = _without_shared(rows)
     table = pa.Table.from_pylist([asdict(row) for row in rows], schema=COLUMNS)
     replace_atomically(
         folder / "index.parquet", lambda path: pq.write_table(table, path, compression="zstd")
@@ -182,6 +193,12 @@ def write_library(folder: Path, sources: Iterable[Source], *, recipe: object) ->
         {"schema": SCHEMA, "artgen": __version__, "digest": digest, "recipe": recipe},
     )
     return digest
+
+
+def _without_shared(rows: Iterable[Entry]) -> list[Entry]:
+    """Rows of bodies whose shape has not been met in another split before."""
+    owner: dict[str, str] = {}
+    return [row for row in rows if owner.setdefault(row.shape, row.split) == row.split]
 
 
 class Library:

@@ -1,0 +1,149 @@
+"""A library built from generators and bundles: processes side by side, resumable, cached."""
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from artgen.assembly.harvest import EMBEDDED, Made, bundle_source, embedded, made_source
+from artgen.assembly.library import seal_library
+from artgen.assembly.source import Source
+from artgen.assembly.store import write_source
+from artgen.core.errors import ArtgenError, UsageError
+from artgen.core.jsonio import content_hash, file_hash, plain
+from artgen.core.mesh import Floats, Ints
+from artgen.export.layout import MANIFEST
+from artgen.finish import RawBody
+from artgen.pipeline import Toolbox, rounded
+from artgen.pool import run_in_processes
+from artgen.progress import Show
+from artgen.run_folder import RunFolder
+
+TIMEOUT_S = 300.0
+"""A source takes under a second; a process that hangs for this long is killed."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SourceTask:
+    """One source to take apart: made by a generator, or a bundle on disk."""
+
+    folder: Path
+    made: Made | None = None
+    bundle: Path | None = None
+    sharp: bool = False
+
+    @property
+    def asset_id(self) -> str:
+        """For messages."""
+        return self.made.asset_id if self.made else str(self.bundle)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Taken:
+    """What became of a task: the id of a source that now lies in the library, or a fault."""
+
+    task: str
+    id: str = ""
+    fault: str = ""
+
+
+def build_library(
+    folder: Path,
+    *,
+    made: Sequence[Made],
+    bundles: Sequence[Path],
+    workers: int,
+    show: Show,
+    sharp: bool = False,
+) -> tuple[str, list[Taken]]:
+    """Write a library; its digest, and what could not be taken in.
+
+    Sources that lie in the folder already are kept, so that an interrupted build goes on.
+
+    Args:
+        sharp: leave edges sharp, without Blender.
+
+    Raises:
+        UsageError: no source could be taken in.
+    """
+    tasks = [SourceTask(folder=folder, made=one, sharp=sharp) for one in made]
+    tasks += [SourceTask(folder=folder, bundle=bundle) for bundle in bundles]
+    there = [t for t in tasks if t.made and (folder / "sources" / f"{t.asset_id}.json").exists()]
+    taken = [Taken(task=t.asset_id, id=t.asset_id) for t in there]
+    missing = [task for task in tasks if task not in there]
+    with show("sources", len(missing)) as advance:
+        for outcome in _outcomes(missing, workers):
+            taken.append(outcome)
+            advance(f"{outcome.task} {outcome.fault}")
+    found = sorted({outcome.id for outcome in taken if outcome.id})
+    if not found:
+        raise UsageError(f"{folder}: no source could be taken in: {taken[0].fault}")
+    recipe = {
+        "made": [plain(one) for one in made],
+        "bundles": sorted(file_hash(bundle / MANIFEST) for bundle in bundles),
+        "sharp": sharp,
+    }
+    digest = seal_library(folder, found, recipe=recipe)
+    return digest, [outcome for outcome in taken if outcome.fault]
+
+
+def embedded_library(folder: Path, *, workers: int, show: Show, sharp: bool = False) -> Path:
+    """The embedded library in a folder, built there unless it is."""
+    name = content_hash([plain(one) for one in embedded(EMBEDDED)])[:12] + ("-sharp" * sharp)
+    home = folder / f"library-{name}"
+    if not (home / "library.json").exists():
+        build_library(home, made=embedded(), bundles=(), workers=workers, show=show, sharp=sharp)
+    return home
+
+
+def _outcomes(tasks: Sequence[SourceTask], workers: int) -> Iterator[Taken]:
+    if not tasks:
+        return iter(())
+    return run_in_processes(
+        tasks,
+        _task_in_worker,
+        workers=workers,
+        initializer=_open_tools,
+        initargs=(tasks[0].folder,),
+        timeout_s=TIMEOUT_S,
+        lost=lambda task, cause: Taken(task=task.asset_id, fault=cause),
+    )
+
+
+_tools: Toolbox | None = None
+"""Of this worker process; set once by the pool's initializer, as pools offer no other way."""
+
+
+def _open_tools(folder: Path) -> None:
+    global _tools
+    _tools = Toolbox(RunFolder(folder / "scratch"), str(os.getpid()))
+
+
+def _task_in_worker(task: SourceTask) -> Taken:
+    """Take one source apart and write it; faults of one become its outcome."""
+    if _tools is None:
+        raise RuntimeError("the pool did not open its tools")
+    try:
+        source = take_apart(task, _tools)
+    except ArtgenError as error:
+        return Taken(task=task.asset_id, fault=str(error))
+    write_source(task.folder, source)
+    return Taken(task=task.asset_id, id=source.id)
+
+
+def take_apart(task: SourceTask, tools: Toolbox) -> Source:
+    """The source of a task.
+
+    Raises:
+        ArtgenError: it cannot be made or read.
+    """
+    if task.bundle is not None:
+        return bundle_source(task.bundle)
+    if task.made is None:
+        raise UsageError("a task names neither what to make nor a bundle")
+    return made_source(task.made, sharp if task.sharp else lambda bodies: rounded(bodies, tools))
+
+
+def sharp(bodies: Sequence[RawBody]) -> list[tuple[Floats, Ints]]:
+    """Bodies as they are, edges sharp: a rounder that needs no Blender."""
+    return [(body.vertices, body.faces) for body in bodies]
