@@ -1,0 +1,110 @@
+"""Gates that a reconstruction must pass to be of use in MuJoCo, by the checks of artgen validate.
+
+Each gate runs the check itself, so that an open mesh does not keep a simulation from being tried.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from artgen.core.errors import ArtgenError
+from artgen.validate import driven, dynamics, models, motion, structure
+from artgen.validate.bounds import shipped_bounds
+from artgen.validate.levels import Said
+from artgen.validate.read import read_subject
+from artgen.validate.report import Finding, Skipped
+from artgen.validate.subject import Source, Subject
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gates:
+    """What held; None where the file does not say enough to ask.
+
+    Attributes:
+        loads: MuJoCo compiles the file, and its joints make a tree with limits.
+        stable: two seconds under gravity bring no warning and no number that is none.
+        settles: in those two seconds no joint leaves rest by more than soft constraints give.
+        opens: within its effort every joint goes through its whole range, and back.
+        clear: no collision pieces of different parts meet at rest or on the way.
+        reasons: gate to what was found against it, or to why it was not asked.
+    """
+
+    loads: bool
+    stable: bool | None
+    settles: bool | None
+    opens: bool | None
+    clear: bool | None
+    reasons: dict[str, str]
+
+    @property
+    def passed(self) -> bool:
+        """Whether nothing that could be asked speaks against it."""
+        return all(held is not False for held in (self.loads, self.stable, self.opens, self.clear))
+
+
+def gates(source: Source) -> Gates:
+    """The gates of a bundle, URDF, MJCF or USD; a bad file fails them and never raises."""
+    subject = read_subject(source, shipped_bounds())
+    reasons: dict[str, str] = {}
+    loads = _held(subject, "loads", (structure.tree, structure.limits, models.compiles), reasons)
+    if not loads:
+        return Gates(loads=False, stable=None, settles=None, opens=None, clear=None,
+                     reasons=reasons)  # fmt: skip
+    found = _said(subject, (dynamics.settles,))
+    findings = [item for item in found if isinstance(item, Finding)]
+    unstable = [item for item in findings if item.part == "simulation"]
+    drifting = [item for item in findings if item.part != "simulation"]
+    for name, items in (("stable", unstable), ("settles", drifting)):
+        if items:
+            reasons[name] = str(items[0])
+    clear: bool | None = None
+    if (lacking := subject.lacks("collision")) is None:
+        clear = _held(subject, "clear", (motion.collisions,), reasons)
+    else:
+        reasons["clear"] = lacking
+    return Gates(
+        loads=True,
+        stable=not unstable,
+        settles=not drifting,
+        opens=_held(subject, "opens", (driven.opens, driven.closes), reasons),
+        clear=clear,
+        reasons=reasons,
+    )
+
+
+Run = Callable[[Subject], Said]
+
+
+def _said(subject: Subject, checks: Iterable[Run]) -> list[object]:
+    """Everything the checks say; what they raise on a bad file becomes a finding."""
+    found: list[object] = []
+    for check in checks:
+        try:
+            found += check(subject)
+        except (ArtgenError, ValueError, KeyError, OSError, ArithmeticError, SyntaxError) as error:
+            found.append(
+                Finding(
+                    check="evaluation.gate",
+                    part=subject.source.file.name,
+                    value=" ".join(str(error).split()),
+                    bound="a file that can be simulated",
+                    cause="it cannot be read as one",
+                    remedy="run artgen validate on it",
+                )
+            )
+    return found
+
+
+def _held(
+    subject: Subject, gate: str, checks: Iterable[Run], reasons: dict[str, str]
+) -> bool | None:
+    """Whether the checks found nothing; None where they skipped something and found nothing."""
+    found = _said(subject, checks)
+    findings = [item for item in found if isinstance(item, Finding)]
+    skipped = [item for item in found if isinstance(item, Skipped)]
+    if findings:
+        reasons[gate] = str(findings[0])
+        return False
+    if skipped:
+        reasons[gate] = skipped[0].reason
+        return None
+    return True
