@@ -25,16 +25,18 @@ from model.run_state import Run, begun
 from model.schedule import Moment, moment_at
 from model.train import train
 
-JOINTS = LossWeights(part_rgb=0.0)
+COLORS = LossWeights(part_rgb=10.0)
+"""Everything."""
+JOINTS = dataclasses.replace(COLORS, part_rgb=0.0)
 """Boxes, joints and masks."""
 MASKS = dataclasses.replace(
-    JOINTS,
-    **dict.fromkeys(
-        ("center", "size", "type", "axis", "origin", "motion", "limits", "parent", "count"), 0.0
-    ),
+    dataclasses.replace(JOINTS, center=0.0, size=0.0, type=0.0, axis=0.0, origin=0.0),
+    motion=0.0,
+    limits=0.0,
+    parent=0.0,
+    count=0.0,
 )
 """Masks alone."""
-COLORS = LossWeights(part_rgb=10.0)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,97 @@
+"""`artgen train`: the option list, and the help."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal
+
+import tyro
+from rich.console import Console
+
+from artgen.core.errors import UsageError
+from model.config import Config, Size
+from model.recipes import RECIPES
+from model.settings import changed
+
+Recipe = Literal["debug", "static_pretrain", "multiview", "monocular"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Train:
+    """Train the Articulated Reconstruction Transformer on objects made from seeds.
+
+    RECIPE says what is learned: debug (one minute on a CPU), static_pretrain (parts at rest, as
+    the paper begins), multiview (V=4, T=2), monocular (V=1, T=2). An interrupted run resumes: the
+    same command again continues behind the newest checkpoint and ends in the same weights. The
+    folder receives config.json, checkpoints, log.jsonl, curves for TensorBoard, rendered pictures,
+    and art.safetensors, the file that `artgen reconstruct` reads.
+
+    For example:
+
+    artgen train debug
+
+    artgen train multiview --size nano --objects 2000 --set train.steps=8000 data.batch=16
+
+    torchrun --nproc-per-node 8 --no-python artgen train multiview --size s --library lib.npz
+    """
+
+    recipe: Annotated[Recipe, tyro.conf.arg(metavar="RECIPE"), tyro.conf.Positional] = "debug"
+    """What is learned."""
+    size: Size = "nano"
+    """How large the network is: nano for a CPU, s for one GPU, paper for many."""
+    out: Path | None = None
+    """Folder of the run; out/train/RECIPE_SIZE if not given."""
+    categories: tuple[str, ...] = ()
+    """Objects to make from seeds; all that `artgen categories` lists when none is named."""
+    objects: int = 64
+    """How many objects to make, dealt out to the categories in turn."""
+    library: Path | None = None
+    """Read objects from this file instead of making them; `artgen train-data` writes one."""
+    start: Path | None = None
+    """Begin with the weights of this file (art.safetensors of another run)."""
+    set: tuple[str, ...] = ()
+    """Settings to change, such as train.steps=2000, data.batch=16 or weights.motion=50;
+    --settings lists all."""
+    settings: bool = False
+    """Print every setting as JSON and stop."""
+    device: Literal["auto", "cpu", "cuda"] = "auto"
+    """Where to compute."""
+    plan: Literal["replicas", "shards"] = "replicas"
+    """With torchrun: every process holds all weights (DDP), or a share of them (FSDP2)."""
+
+
+def train(argv: Sequence[str]) -> int:
+    """Train the reconstruction network; resumes where it was interrupted."""
+    command = tyro.cli(Train, args=argv, prog="artgen train")
+    config = changed(RECIPES[command.recipe](command.size), command.set)
+    if command.settings:
+        Console().print_json(config.to_json())
+        return 0
+    if command.objects < 1:
+        raise UsageError(f"--objects {command.objects}: at least 1")
+    _train(command, config)
+    return 0
+
+
+def _train(command: Train, config: Config) -> None:
+    try:
+        from model.session import Material, run_session  # Torch takes seconds to import.
+    except ModuleNotFoundError as error:
+        raise UsageError(
+            f"artgen train needs {error.name}, which is not installed: pip install 'artgen[model]'"
+        ) from error
+    material = Material(
+        categories=command.categories,
+        objects=command.objects,
+        library=command.library,
+    )
+    run_session(
+        config,
+        material,
+        command.out or Path("out/train") / f"{command.recipe}_{command.size}",
+        start=command.start,
+        device=command.device,
+        plan=command.plan,
+        environment=os.environ,
+    )

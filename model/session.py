@@ -1,0 +1,209 @@
+"""One training session in its folder: objects in, network file out, interrupted or not."""
+
+import dataclasses
+import json
+import os
+import platform
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from contextlib import nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from artgen.core.errors import UsageError
+from artgen.core.jsonio import plain, write_json
+from artgen.dataset.split import Split
+from artgen.progress import Show, progress
+from artgen.rules import rule_names
+from artgen.run_folder import locked
+from model.art import Art
+from model.art_file import ModelCard, Stored, load_art, load_weights, save_art
+from model.batch import Batch
+from model.config import Config
+from model.data.library import read_library
+from model.data.loader import batches
+from model.data.make import Request, dealt, make_library
+from model.data.soup import TOLERANCE
+from model.data.soup_source import SoupSource
+from model.distributed import Plan, Team, joined, wait_for_all, whole
+from model.objective import Objective
+from model.picture import picture_of
+from model.run_state import Run, begun, differences, resume, trained_state
+from model.schedule import Moment
+from model.train import Draw, Supply, train
+
+LIBRARY = "library.npz"
+RESULT = "art.safetensors"
+SHIPPED_BYTES = 29_000_000
+"""Weights that need more are rounded to float16: a shipped file stays below 30 MB."""
+WORKERS = os.cpu_count() or 1
+LIMITS = (
+    "Learned from procedural objects shown by a ray caster; not tried on photographs.",
+    "Expects the object alone, from known cameras, in two or more states.",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Material:
+    """What is learned from.
+
+    Attributes:
+        categories: of objects made from seeds; all where none is named.
+        objects: how many are made, dealt out to the categories in turn.
+        library: file of objects, instead of making them.
+        split: share of the objects that is learned from; None for all.
+    """
+
+    categories: tuple[str, ...] = ()
+    objects: int = 64
+    library: Path | None = None
+    split: Split | None = "train"
+
+    def request(self, seed: int) -> Request:
+        """Which objects to make."""
+        names = self.categories or tuple(rule_names())
+        counts = {name: count for name, count in dealt(names, self.objects).items() if count}
+        return Request(counts=counts, seed=seed, tolerance=TOLERANCE)
+
+
+def run_session(
+    config: Config,
+    material: Material,
+    folder: Path,
+    *,
+    environment: Mapping[str, str],
+    start: Path | None = None,
+    device: str = "auto",
+    plan: Plan = "replicas",
+    show: Show = progress,
+) -> Path:
+    """Train, or go on training, in `folder`; the path of the network file.
+
+    Args:
+        environment: where `torchrun` says who takes part.
+        start: network file whose weights to begin with.
+
+    Raises:
+        UsageError: the folder holds a run of other settings, or is in use.
+        ModelError: data, weights or the training itself failed.
+    """
+    with joined(environment, device=device, plan=plan) as team:
+        if team.leads:
+            folder.mkdir(parents=True, exist_ok=True)
+        with locked(folder) if team.leads else nullcontext():
+            settings = {"config": plain(config), "material": plain(material)}
+            _claim(folder, settings, team)
+            source = _opened(material, folder, config, team, show=show)
+            art = _network(config, start)
+            run = _begun(art, config, team, settings)
+            resume(run, folder)
+            supply = _supply(source, config, team)
+            train(run, supply, folder=folder, show=show, draw=_draw(art, supply, team))
+            card = _card(source, config, material, run)
+            _export(run, art, config, card, folder / RESULT)
+    return folder / RESULT
+
+
+def _claim(folder: Path, settings: Mapping[str, Any], team: Team) -> None:
+    """Write the settings into a new folder, or see that an old one has the same."""
+    path = folder / "config.json"
+    if team.leads and not path.exists():
+        write_json(path, settings)
+    wait_for_all(team)
+    found = json.loads(path.read_text(encoding="utf-8"))
+    if lines := differences(found, plain(settings)):
+        raise UsageError(
+            f"{folder}: holds a run of other settings: {'; '.join(lines[:5])}; give the same ones "
+            "to resume, or choose another --out"
+        )
+
+
+def _opened(
+    material: Material, folder: Path, config: Config, team: Team, *, show: Show
+) -> SoupSource:
+    """The objects to learn from; those to be made are made once and kept in the folder."""
+    path = material.library or folder / LIBRARY
+    if material.library is None and team.leads and not path.exists():
+        make_library(path, material.request(config.data.seed), workers=WORKERS, show=show)
+    wait_for_all(team)
+    return SoupSource(read_library(path), split=material.split, slots=config.data.slots)
+
+
+def _network(config: Config, start: Path | None) -> Art:
+    torch.manual_seed(config.train.seed)
+    art = Art(config.model)
+    if start is not None:
+        begun_from, _, _ = load_art(start)
+        load_weights(art, trained_state(begun_from), start)
+    return art
+
+
+def _begun(art: Art, config: Config, team: Team, settings: Mapping[str, Any]) -> Run:
+    objective = Objective(
+        art,
+        config.weights,
+        precision=config.train.precision,
+        field_precision=config.train.field_precision,
+    )
+    return begun(objective, config.train, items=config.data.batch, team=team, settings=settings)
+
+
+def _supply(source: SoupSource, config: Config, team: Team) -> Supply:
+    def supply(moment: Moment, cursor: int) -> Iterator[Batch]:
+        data = dataclasses.replace(config.data, target_px=moment.target_px)
+        place = {"rank": team.rank, "world": team.world}
+        return batches(source, data, cursor, **place, device=team.device)
+
+    return supply
+
+
+def _draw(art: Art, supply: Supply, team: Team) -> Draw | None:
+    """How to show the first objects; not where weights are divided among ranks."""
+    if art.planes is None or (team.world > 1 and team.plan == "shards"):
+        return None
+
+    def draw(moment: Moment) -> NDArray[np.uint8]:
+        return picture_of(art, next(supply(moment, 0)), moment)
+
+    return draw
+
+
+def _card(source: SoupSource, config: Config, material: Material, run: Run) -> ModelCard:
+    categories = Counter(source.library.categories[k] for k in source.positions)
+    return ModelCard(
+        data={
+            "categories": dict(sorted(categories.items())),
+            "objects": len(source),
+            "left_out": len(source.left_out),
+            "library": source.library.made,
+            "split": material.split,
+            "seed": config.data.seed,
+            "items": run.cursor,
+        },
+        steps=run.step,
+        hours=run.seconds / 3600.0,
+        hardware=hardware(run.team),
+        limits=LIMITS,
+    )
+
+
+def hardware(team: Team) -> str:
+    """What computed, for the card."""
+    if team.device.type == "cuda":
+        return f"{team.world} x {torch.cuda.get_device_name(team.device)}"
+    return f"{team.world} x {torch.get_num_threads()} threads of a {platform.machine()} CPU"
+
+
+def _export(run: Run, art: Art, config: Config, card: ModelCard, path: Path) -> None:
+    """Ship the moving average of the weights, in the larger type that stays within the limit."""
+    weights = {name.removeprefix("art."): whole(value) for name, value in run.average.items()}
+    if run.team.leads:
+        numbers = sum(value.numel() for value in weights.values())
+        stored: Stored = "float32" if 4 * numbers < SHIPPED_BYTES else "float16"
+        save_art(path, art, config, card, weights=weights, stored=stored)
+    wait_for_all(run.team)
