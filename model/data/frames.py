@@ -33,17 +33,12 @@ def framed_images(
     intrinsics = torch.from_numpy(np.stack([view.intrinsics for view in views])).to(device)
     square, cropped = square_views(rgba_BTVHW4.flatten(0, 2), intrinsics.flatten(0, 2), size=size)
     square = square.view(*shape, size, size, 4)
+    poses = np.stack([view.camera_from_world for view in views]).astype(np.float32)
     behind = torch.from_numpy(np.stack(backgrounds)).to(device)[:, None, None, None, None]
     rgb = square[..., :3] + (1.0 - square[..., 3:]) * behind
     return Images(
         rgb_BTV3HW=rgb.permute(0, 1, 2, 5, 3, 4).contiguous(),
         alpha_BTVHW=square[..., 3].contiguous(),
         intrinsics_BTV33=cropped.view(*shape, 3, 3).float(),
-        camera_from_world_BTV44=poses(views, device),
+        camera_from_world_BTV44=torch.from_numpy(poses).to(device),
     )
-
-
-def poses(views: Sequence[Views], device: torch.device) -> Tensor:
-    """(B, T, V, 4, 4) float32 `camera_from_world`."""
-    stacked = np.stack([view.camera_from_world for view in views]).astype(np.float32)
-    return torch.from_numpy(stacked).to(device)

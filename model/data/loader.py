@@ -13,7 +13,6 @@ from model.batch import Batch
 from model.data.config import DataConfig
 from model.data.items import Source
 from model.data.merge import merged
-from model.data.order import Order
 
 Planned = TypeVar("Planned")
 CPU = torch.device("cpu")
@@ -69,7 +68,7 @@ class _Work(Dataset[Any]):
         self._source, self._config, self._shows = source, config, shows
         self._share = config.batch // world
         self._first = rank * self._share
-        self._order = Order(len(source), seed=config.seed)
+        self._row = source.order(config.seed)
 
     def __getitem__(self, start: int) -> Batch | Sequence[Any]:
         places = range(start + self._first, start + self._first + self._share)
@@ -80,9 +79,8 @@ class _Work(Dataset[Any]):
         return merged(shown)
 
     def _plan(self, place: int) -> Any:
-        visit = self._order.visit(place)
         stream = Stream(self._config.seed, "item", place)
-        return self._source.plan(visit.position, self._config, stream)
+        return self._source.plan(self._row.at(place), self._config, stream)
 
 
 def _as_is(made: Any) -> Any:

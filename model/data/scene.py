@@ -11,14 +11,13 @@ from artgen.articulation.targets import targets
 from artgen.articulation.types import Joint, Precondition
 from artgen.core.mesh import Floats, Ints
 from artgen.core.stream import Stream
-from model.data.config import Background, DataConfig, Motion
+from model.data.config import DataConfig, Motion
+from model.data.draws import background_color, chosen_views
 from model.data.look import Look, drawn_look
 from model.data.pick import ray_draws
 from model.data.soup import Soup
 from model.data.truth import Truth, truth
 from model.data.views import Views, drawn_views
-
-_COLORS: dict[Background, float] = {"white": 1.0, "gray": 0.5, "black": 0.0}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -117,20 +116,6 @@ def centered(poses: Floats, center: Floats, radius: float) -> Floats:
     moved[..., :3, 3] += poses[..., :3, :3] @ center - center
     moved[..., :3, 3] /= radius
     return moved
-
-
-def chosen_views(config: DataConfig, count: int, stream: Stream) -> NDArray[np.int64]:
-    """(T, W) which of `count` views supervise in each state, none twice while they last."""
-    rng = stream.generator()
-    rows = [rng.permutation(count) for _ in range(config.states)]
-    return np.stack([np.resize(row, config.target_views) for row in rows]).astype(np.int64)
-
-
-def background_color(kind: Background, stream: Stream) -> NDArray[np.float32]:
-    """(3,) sRGB."""
-    if kind == "random":
-        return stream.generator().random(3, dtype=np.float32)
-    return np.full(3, _COLORS[kind], np.float32)
 
 
 def _views(points: Floats, config: DataConfig, stream: Stream, count: int) -> Views:

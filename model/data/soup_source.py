@@ -12,14 +12,15 @@ from artgen.core.errors import ModelError
 from artgen.core.stream import Stream
 from artgen.dataset.split import Split, split_of
 from model.batch import Batch, Images, Rays
+from model.data.cameras import Cameras, state_cameras
 from model.data.config import DataConfig
 from model.data.crop import window_intrinsics
-from model.data.frames import framed_images, poses
+from model.data.frames import framed_images
 from model.data.library import Library
+from model.data.order import Permutations
 from model.data.pick import picked
 from model.data.scene import Scene, drawn_scene
 from model.data.stage import (
-    Cameras,
     Stage,
     cast,
     colors,
@@ -29,7 +30,6 @@ from model.data.stage import (
     staged,
 )
 from model.data.truth import articulation
-from model.data.views import Views
 
 log = logging.getLogger(__name__)
 
@@ -66,6 +66,10 @@ class SoupSource:
     def __len__(self) -> int:
         return len(self.positions)
 
+    def order(self, seed: int) -> Permutations:
+        """A permutation for every epoch."""
+        return Permutations(len(self), seed=seed)
+
     def plan(self, position: int, config: DataConfig, stream: Stream) -> Scene:
         """One item of the object at a position, drawn."""
         return drawn_scene(self.library[self.positions[position]], config, stream)
@@ -78,7 +82,7 @@ class SoupSource:
 def shown(scenes: Sequence[Scene], config: DataConfig, device: torch.device) -> Batch:
     """Scenes as a batch: images of their inputs, and rays through their targets."""
     stage = staged(scenes, device)
-    inputs = _cameras([scene.inputs for scene in scenes], device)
+    inputs = state_cameras([scene.inputs for scene in scenes], device)
     rgba = photographs(stage, inputs, size=config.render_px)
     images = framed_images(
         rgba.view(len(scenes), config.states, config.views, *rgba.shape[2:]),
@@ -96,18 +100,6 @@ def shown(scenes: Sequence[Scene], config: DataConfig, device: torch.device) -> 
     )
 
 
-def _cameras(views: Sequence[Views], device: torch.device) -> Cameras:
-    """T x V cameras a scene."""
-    intrinsics = np.stack([view.intrinsics for view in views]).astype(np.float32)
-    items, states, count = intrinsics.shape[:3]
-    state = torch.arange(states, device=device).repeat_interleave(count)
-    return Cameras(
-        intrinsics_BN33=torch.from_numpy(intrinsics).to(device).flatten(1, 2),
-        camera_from_world_BN44=poses(views, device).flatten(1, 2),
-        state_BN=state.expand(items, -1),
-    )
-
-
 def target_cameras(
     stage: Stage, scenes: Sequence[Scene], images: Images, config: DataConfig
 ) -> Cameras:
@@ -115,7 +107,7 @@ def target_cameras(
     device = images.rgb_BTV3HW.device
     others = [scene.others for scene in scenes if scene.others is not None]
     if others:
-        raw = _cameras(others, device)
+        raw = state_cameras(others, device)
         windows = frame_windows(stage, raw).flatten(0, 1)
         matrices = raw.intrinsics_BN33.flatten(0, 1).double()
         cropped = window_intrinsics(matrices, windows, size=config.target_px).float()

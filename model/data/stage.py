@@ -13,40 +13,10 @@ from torch import Tensor
 from torch.nn import functional
 
 from model.batch import TensorBlock
+from model.data.cameras import Cameras
 from model.data.cast import Hits, depth_of, first_hits, projected, triangle_of
 from model.data.look import Lighting, lighting, shaded
 from model.data.scene import Scene
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cameras(TensorBlock):
-    """N cameras a scene.
-
-    Attributes:
-        intrinsics_BN33: float32 px.
-        camera_from_world_BN44: float32, radii.
-        state_BN: int64 state that each looks at.
-    """
-
-    intrinsics_BN33: Tensor
-    camera_from_world_BN44: Tensor
-    state_BN: Tensor
-
-    @property
-    def center_BN3(self) -> Tensor:
-        """Where the cameras stand, radii."""
-        turn = self.camera_from_world_BN44[..., :3, :3]
-        shift = self.camera_from_world_BN44[..., :3, 3:]
-        return -(turn.transpose(2, 3) @ shift)[..., 0]
-
-    def sights(self, item: Tensor, camera: Tensor, pixel: Tensor, width: int) -> Tensor:
-        """(..., 3) world vectors through pixel centers, as long as one radius of depth."""
-        matrix = self.intrinsics_BN33[item, camera]
-        x = (pixel % width + 0.5 - matrix[..., 0, 2]) / matrix[..., 0, 0]
-        y = (pixel // width + 0.5 - matrix[..., 1, 2]) / matrix[..., 1, 1]
-        local = torch.stack([x, y, torch.ones_like(x)], dim=-1)
-        turn = self.camera_from_world_BN44[item, camera, :3, :3]
-        return torch.einsum("...ij,...i->...j", turn, local)
 
 
 @dataclass(frozen=True, kw_only=True)
