@@ -60,12 +60,13 @@ def test_segments_may_be_any_in_any_number() -> None:
     slots = torch.tensor([0, 0, 2, 1, 2, 7])
     found = read(stacked(planes), points, slots, parts=3)
     for k, slot in enumerate(slots.tolist()):
-        alone = read(stacked(planes[slot // 3, None]), points[k, None], torch.tensor([slot % 3]), parts=3)  # fmt: skip
+        own = stacked(planes[slot // 3, None])
+        alone = read(own, points[k, None], torch.tensor([slot % 3]), parts=3)
         torch.testing.assert_close(found[k], alone[0], rtol=0, atol=1e-13)
 
 
 def test_no_reading_reaches_the_planes_of_others() -> None:
-    """Not even at the border of the box, in float32: what others hold may be a thousand times more."""
+    """Not even at the border of the box, in float32, if others hold a million times more."""
     planes, _ = planes_and_points(side=(64, 64), parts=8)
     planes = planes.float()
     corners = torch.tensor([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)])
@@ -81,7 +82,8 @@ def test_planes_of_one_texel_are_constant() -> None:
     planes, points = planes_and_points(side=(1, 1))
     found = read(stacked(planes), points, torch.arange(3), parts=3)
     above = points[..., 2] >= 0
-    expected = torch.where(above[..., None], planes[0, :, None, 0, :, 0, 0], planes[0, :, None, 1, :, 0, 0])  # fmt: skip
+    upper, lower = planes[0, :, None, 0, :, 0, 0], planes[0, :, None, 1, :, 0, 0]
+    expected = torch.where(above[..., None], upper, lower)
     # Weights of 1 that were rounded once.
     torch.testing.assert_close(found[..., :2], expected, rtol=1e-15, atol=0)
 
@@ -89,7 +91,9 @@ def test_planes_of_one_texel_are_constant() -> None:
 def test_blending_joins_the_octants() -> None:
     """Across z = 0 the switch jumps; the blend does not, and is the switch away from 0."""
     planes, _ = planes_and_points(parts=1)
-    line = torch.tensor([[0.3, 0.4, z] for z in (-0.5, -1e-9, 1e-9, 0.5)], dtype=torch.float64)[None]
+    line = torch.tensor([[0.3, 0.4, z] for z in (-0.5, -1e-9, 1e-9, 0.5)], dtype=torch.float64)[
+        None
+    ]
     slot = torch.tensor([0])
     switched = read(stacked(planes), line, slot, parts=1)[0]
     blended = read(stacked(planes), line, slot, parts=1, blend=0.1)[0]

@@ -12,7 +12,9 @@ EPS64 = torch.finfo(torch.float64).eps
 
 def segments(count: int = 7) -> tuple[torch.Tensor, torch.Tensor]:
     rng = Stream(0, "segments").generator()
-    return torch.tensor(rng.uniform(0.5, 2, size=count)), torch.tensor(rng.uniform(0, 1, size=count))
+    return torch.tensor(rng.uniform(0.5, 2, size=count)), torch.tensor(
+        rng.uniform(0, 1, size=count)
+    )
 
 
 def wall(at: torch.Tensor, place: float = 1.3, half: float = 0.004) -> torch.Tensor:
