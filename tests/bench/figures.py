@@ -27,6 +27,7 @@ from artgen.run_folder import RunFolder
 from artgen.studies.table import markdown_table, write_table
 from artgen.validate import validate_bundle
 from tests.bench.acceptance import CHECKS, gltf_verdicts, verdicts
+from tests.texels import texel_figures
 
 SEED = 20261121
 ACCEPTED = 6
@@ -50,6 +51,8 @@ class Row:
     bundle_mb: float = math.nan
     files: int = 0
     triangles: int = 0
+    texel_ratio: float = math.nan
+    atlas_shared: float = math.nan
     message: str = ""
 
 
@@ -88,6 +91,7 @@ def measured(task: AssetTask) -> Row:
     validated = time.process_time() - started
     files = [path for path in home.rglob("*") if path.is_file()]
     bundle = read_bundle(home)
+    texel_ratio, atlas_shared = texel_figures(home)
     return Row(
         asset_id=task.asset_id,
         status=outcome.status,
@@ -99,6 +103,8 @@ def measured(task: AssetTask) -> Row:
         bundle_mb=sum(path.stat().st_size for path in files) / 1e6,
         files=len(files),
         triangles=sum(part.triangles for part in bundle.parts),
+        texel_ratio=texel_ratio,
+        atlas_shared=atlas_shared,
         message=outcome.message,
     )
 
@@ -178,7 +184,8 @@ def measure_acceptance(root: Path) -> list[tuple[str, int, int]]:
 
 HEADER = (
     *("category", "assets", "passed", "build + finish + export, CPU s", "validate, CPU s"),
-    *("triangles", "bundle, MB", "files", "render 4 x 2 at 128 px, wall s"),
+    *("triangles", "bundle, MB", "files", "texels a metre, greatest over least"),
+    *("atlas that two places share", "render 4 x 2 at 128 px, wall s"),
 )
 
 
@@ -222,6 +229,8 @@ def category_line(category: str, rows: Sequence[Row], renders: dict[str, float])
         middle_and_top([float(row.triangles) for row in made], 0),
         middle_and_top([row.bundle_mb for row in made], 2),
         middle_and_top([float(row.files) for row in made], 0),
+        middle_and_top([row.texel_ratio for row in made], 2),
+        f"{max(row.atlas_shared for row in made):.1e}",
         f"{renders.get(category, math.nan):.1f}",
     ]
 
@@ -232,7 +241,8 @@ PAGE = """\
 Made by `make bench`; `benchmarks.csv` beside this page has a line per asset.
 
 Machine: {cores} cores, {machine}, {memory:.0f} GB, {system}. CPU seconds are user + system and
-include the Blender process; numbers in a cell are median and greatest.
+include the Blender process; numbers in a cell are median and greatest. Areas of the atlas that two
+places share are roundings of UV to 1e-6 in triangles that touch.
 
 {table}
 

@@ -5,7 +5,6 @@ import math
 import subprocess
 import sys
 
-import manifold3d as m3
 import numpy as np
 import pytest
 
@@ -15,12 +14,12 @@ from artgen.articulation.roles import role_of
 from artgen.articulation.states import required_state
 from artgen.articulation.types import ArticulatedObject, Joint, Limit
 from artgen.core.transform import apply
-from artgen.export.write import ATLAS_SIZE
 from artgen.generators import load_builder
 from artgen.geometry.measure import open_edges, total_volume
 from artgen.geometry.unwrap import texel_density
 from artgen.rules import load_rule
 from tests.made import CATEGORIES, SEED, drafted, drawn, finished, object_hash
+from tests.texels import density_ratio, shared_area
 
 OWN_WORKER = {name: pytest.mark.xdist_group(name) for name in CATEGORIES}
 """A category is made by one worker, which keeps its drafts and finished objects."""
@@ -193,23 +192,13 @@ def test_no_two_places_share_a_texel(category: str, index: int) -> None:
     """The union of all triangles on the atlas is as large as their sum, but for rounding: corners
     lie on a grid of 1e-6, so an edge of length 1e-3 may lean over its neighbor by 1e-9."""
     atlas = np.concatenate([part.mesh.atlas for part in finished(category, index).parts])
-    a, b = atlas[:, 1] - atlas[:, 0], atlas[:, 2] - atlas[:, 0]
-    areas = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0
-    upright = np.where((areas < 0.0)[:, None, None], atlas[:, ::-1], atlas)
-    union = m3.CrossSection(list(upright[areas != 0.0]), m3.FillRule.Positive).area()
-    assert np.abs(areas).sum() - union < 2e-4
+    assert shared_area(atlas) < 2e-4
 
 
 @every_asset
 def test_texels_are_alike_all_over_an_asset(category: str, index: int) -> None:
-    """One scale for all charts, flattened along an axis: the root of a face's area shrinks by at
-    most 3^(1/4). Charts are packed as whole texels, so faces thinner than three are left out."""
+    """One scale for all charts, flattened along an axis."""
     parts = finished(category, index).parts
     corners = np.concatenate([part.mesh.triangles for part in parts])
     atlas = np.concatenate([part.mesh.atlas for part in parts])
-    sides = np.stack([corners[:, k] - corners[:, k - 1] for k in range(3)], axis=1)
-    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    thickness = area / np.linalg.norm(sides, axis=2).max(axis=1).clip(min=1e-12)
-    density = texel_density(corners, atlas)
-    density = density[thickness * ATLAS_SIZE * np.median(density) > 3.0]
-    assert density.max() <= 2.0 * density.min()
+    assert density_ratio(corners, atlas) <= 2.0
