@@ -75,7 +75,7 @@ TABLES: Sequence[Table] = (
     ),
     Table(
         title="ART's ablations, more than 130 held-out sequences",
-        told="As the ART paper has it; the rows after the second leave static pre-training out too.",
+        told="As the ART paper has it; rows after the second are without static pre-training, too.",
         rows=(
             _row("full", _ABLATION, (28.678, 0.629, 0.062)),
             _row("without static pre-training", _ABLATION, (27.495, 0.665, 0.082)),

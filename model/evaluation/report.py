@@ -1,4 +1,4 @@
-"""The report: one JSON with everything, and one HTML page with pictures, which needs no other file."""
+"""The report: one JSON with everything, and one HTML page with its pictures inside."""
 
 import base64
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,0 +1,219 @@
+"""`artgen evaluate`: predictions of any system against the truth, as one JSON and one page."""
+
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Literal
+
+import tyro
+from rich.console import Console
+from rich.table import Table
+
+from artgen.core.errors import UsageError
+from artgen.core.jsonio import plain, write_bytes, write_json
+from artgen.progress import progress
+from artgen.run_folder import locked
+from model.evaluation.adapters.formats import Place, places
+from model.evaluation.metrics import HEADLINES, METRICS
+from model.evaluation.report import SHOWN, Report, interval, page, ranking, shown
+from model.evaluation.score import Align, Protocol, Record
+from model.evaluation.summary import Summary, summary
+from model.evaluation.tasks import Task, scored
+
+FormatName = Literal[
+    "auto", "bundle", "urdf", "urdformer", "singapo", "paris", "dta", "artgs", "two_states"
+]
+SCHEMA = "artgen-evaluation-run/1"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evaluate:
+    """Score reconstructions of any system against the truth.
+
+    PREDICTIONS and --truth are folders that hold an object in each of their folders; an object's
+    name is a bundle's asset id or the folder's name, and must be the same in both. Known layouts:
+    artgen bundles, any URDF, URDFormer's URDF, SINGAPO's object.json, the meshes and joints of
+    PARIS, Digital Twin Art and ArtGS, and their ground truth. PNGs in a folder `images` beside an
+    object are compared with the true ones of the same name.
+
+    Writes evaluation.json, report.html and objects/, one record an object; the same command again
+    scores only what changed. What each metric means: docs/evaluation.md.
+    """
+
+    predictions: Annotated[Path, tyro.conf.Positional]
+    """Folder of predicted objects."""
+    truth: Path
+    """Folder of true objects, such as out/assets."""
+    format: FormatName = "auto"
+    """Layout of the predictions; told by their files if auto. A URDF whose front is +x, as
+    URDFormer's, needs to be told."""
+    truth_format: FormatName = "auto"
+    """Layout of the truth."""
+    system: str = ""
+    """Name of the system, for the report; the folder's if not given."""
+    out: Path = Path("out/evaluation")
+    """Receives the report."""
+    align: Align = "none"
+    """Where predictions are placed: as they are (cameras known), with the true box's middle, or
+    also with its half diagonal (a system that has its own frame and scale)."""
+    points: int = 10_000
+    """Points over a surface for Chamfer distances and F-scores."""
+    part_points: int = 20_000
+    """Points over a whole object for Particulate's distances; its paper takes 100,000."""
+    mask_pixels: int = 96
+    """Side of the images for mask IoU; 0 leaves masks out."""
+    handles: bool = True
+    """Whether parts labelled `handle` count in SINGAPO's published metrics."""
+    gates: bool = True
+    """Whether bundles and URDFs are loaded and driven in MuJoCo."""
+    workers: int = field(default_factory=lambda: os.cpu_count() or 1)
+    """Processes side by side."""
+
+
+def evaluate(argv: Sequence[str]) -> int:
+    """Score predictions of any system: one JSON, one page with pictures."""
+    command = tyro.cli(Evaluate, args=list(argv), prog="artgen evaluate")
+    protocol = checked_protocol(command)
+    true = places(command.truth, command.truth_format)
+    predicted = places(command.predictions, command.format)
+    missing = sorted(set(true) - set(predicted))
+    if len(missing) == len(true):
+        raise UsageError(
+            f"no object of {command.truth} is among {command.predictions}: "
+            f"{_some(sorted(true))} against {_some(sorted(predicted))}; name predictions as the "
+            "true objects are named"
+        )
+    with run_folder(command.out, stated_run(command, protocol)):
+        tasks = [
+            Task(
+                name=name,
+                predicted=predicted.get(name),
+                true=true[name],
+                protocol=protocol,
+                gated=command.gates,
+                folder=command.out / "objects",
+            )
+            for name in sorted(true)
+        ]
+        records = scored_with_progress(tasks, command.workers)
+        report = Report(
+            system=command.system or command.predictions.name,
+            truth=str(command.truth),
+            protocol=protocol,
+            records=records,
+            summary=summary(records),
+            notes=notes(predicted, true),
+            pictures=pictures(command.out / "objects", records),
+        )
+        write_report(command.out, report)
+    announce(report.summary, command.out)
+    return 0
+
+
+def checked_protocol(command: Evaluate) -> Protocol:
+    """The protocol that the options state."""
+    if min(command.points, command.part_points) < 100 or command.mask_pixels < 0:
+        raise UsageError(
+            f"--points {command.points}, --part-points {command.part_points} and --mask-pixels "
+            f"{command.mask_pixels}: expected at least 100, 100 and 0"
+        )
+    return Protocol(
+        align=command.align,
+        points=command.points,
+        part_points=command.part_points,
+        mask_pixels=command.mask_pixels,
+        handles=command.handles,
+    )
+
+
+def stated_run(command: Evaluate, protocol: Protocol) -> Mapping[str, object]:
+    """What a folder of results belongs to."""
+    return {
+        "schema": SCHEMA,
+        "predictions": str(command.predictions),
+        "truth": str(command.truth),
+        "protocol": plain(protocol),
+    }
+
+
+@contextmanager
+def run_folder(folder: Path, stated: Mapping[str, object]) -> Iterator[None]:
+    """The folder of results, locked; a folder of another evaluation is refused.
+
+    Raises:
+        UsageError: it is a file, in use, holds foreign files or results of something else.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise UsageError(f"{folder} is a file; --out needs a folder")
+    folder.mkdir(parents=True, exist_ok=True)
+    record = folder / "run.json"
+    with locked(folder):
+        others = sorted(path.name for path in folder.iterdir() if path.name != ".lock")
+        if record.is_file():
+            if json.loads(record.read_text(encoding="utf-8")) != dict(stated):
+                raise UsageError(
+                    f"{folder} holds the evaluation of other predictions, truth or options; choose "
+                    "another --out"
+                )
+        elif others:
+            raise UsageError(f"{folder} holds {_some(others)} already; choose another --out")
+        write_json(record, stated)
+        yield
+
+
+def scored_with_progress(tasks: Sequence[Task], workers: int) -> list[Record]:
+    """Records in the order of the tasks."""
+    records = {}
+    with progress("objects", len(tasks)) as advance:
+        for record in scored(tasks, workers=workers):
+            records[record.name] = record
+            advance(record.name)
+    return [records[task.name] for task in tasks]
+
+
+def notes(predicted: Mapping[str, Place], true: Mapping[str, Place]) -> list[str]:
+    """What the reader must know of what was compared."""
+    found = []
+    if extra := sorted(set(predicted) - set(true)):
+        found.append(f"{len(extra)} predictions have no truth and were left out: {_some(extra)}.")
+    return found
+
+
+def pictures(folder: Path, records: Sequence[Record]) -> dict[str, bytes]:
+    """The pictures that the page shows."""
+    ranked = ranking(records)
+    wanted = {record.name for record in (*ranked[:SHOWN], *ranked[-SHOWN:])}
+    found = {}
+    for name in wanted:
+        path = folder / f"{name.replace('/', '__')}.png"
+        if path.is_file():
+            found[name] = path.read_bytes()
+    return found
+
+
+def write_report(out: Path, report: Report) -> None:
+    """evaluation.json and report.html."""
+    write_json(out / "evaluation.json", report.as_json())
+    write_bytes(out / "report.html", page(report).encode())
+
+
+def announce(found: Summary, out: Path) -> None:
+    """The headlines, and where everything lies."""
+    console = Console()
+    title = f"{found.objects} objects, {len(found.failures)} without a prediction"
+    table = Table("metric", "mean", "95 %", "median", "unit", title=title)
+    for name in HEADLINES:
+        own = found.overall[name]
+        if own.mean is not None:
+            cells = (shown(own.mean), interval(own), shown(own.median), METRICS[name].unit)
+            table.add_row(name, *cells)
+    console.print(table)
+    console.print(f"page: {out / 'report.html'}", highlight=False)
+    console.print(f"data: {out / 'evaluation.json'}", highlight=False)
+
+
+def _some(names: Sequence[str]) -> str:
+    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")

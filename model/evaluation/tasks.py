@@ -1,0 +1,173 @@
+"""Objects scored side by side in processes; each leaves a record, so that a run resumes."""
+
+import json
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from artgen.core.errors import ArtgenError
+from artgen.core.jsonio import content_hash, file_hash, write_bytes, write_json
+from artgen.core.mesh import Floats
+from artgen.export.layout import MANIFEST
+from artgen.pool import run_in_processes
+from artgen.validate.subject import Source
+from model.evaluation.adapters.formats import FORMATS, Place
+from model.evaluation.gates import gates
+from model.evaluation.images import ImageScores, image_scores, over_white
+from model.evaluation.joints import JointErrors
+from model.evaluation.layout import Layout
+from model.evaluation.pictures import strip
+from model.evaluation.score import Protocol, Record, failed, score
+
+SCHEMA = "artgen-evaluation-object/1"
+TASK_TIMEOUT_S = 900.0
+SIMULATED = {"bundle": "bundle", "urdf": "urdf", "urdformer": "urdf"}
+"""Format of a prediction to the format that the gates read; others state no simulation."""
+IMAGES = "images"
+"""Folder beside an object's files with PNGs; predicted and true ones of one name are compared."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """One object to score.
+
+    Attributes:
+        predicted: None where there is no prediction.
+        folder: receives the record and the picture.
+    """
+
+    name: str
+    predicted: Place | None
+    true: Place
+    protocol: Protocol
+    gated: bool
+    folder: Path
+
+    @property
+    def asset_id(self) -> str:
+        """Its name, for messages."""
+        return self.name
+
+    @property
+    def stem(self) -> str:
+        """The name as a file's name."""
+        return self.name.replace("/", "__")
+
+    @property
+    def key(self) -> str:
+        """What the record depends on."""
+        places = [self.predicted, self.true]
+        return content_hash([SCHEMA, self.protocol, self.gated, [_digests(own) for own in places]])
+
+
+def _digests(place: Place | None) -> list[list[str]]:
+    """Every file of an object with its hash; a folder's own files, or those beside a file."""
+    if place is None:
+        return []
+    root = place.path if place.path.is_dir() else place.path.parent
+    files = sorted(path for path in root.rglob("*") if path.is_file())
+    return [[place.format, path.relative_to(root).as_posix(), file_hash(path)] for path in files]
+
+
+def scored(tasks: Sequence[Task], *, workers: int) -> Iterator[Record]:
+    """A record for every task, kept ones first and the others as they come."""
+    waiting = []
+    for task in tasks:
+        kept = _kept(task)
+        if kept is None:
+            waiting.append(task)
+        else:
+            yield kept
+    if not waiting:
+        return
+    yield from run_in_processes(
+        waiting,
+        work,
+        workers=min(workers, len(waiting)),
+        initializer=_one_thread,
+        initargs=(),
+        timeout_s=TASK_TIMEOUT_S,
+        lost=_lost,
+    )
+
+
+def _one_thread() -> None:
+    """Processes side by side leave each other their cores."""
+    os.environ["OMP_NUM_THREADS"] = "1"
+
+
+def work(task: Task) -> Record:
+    """Score one object, and keep its record and picture."""
+    true = replace(task.true.read(), name=task.name)
+    record = _record(task, true)
+    body = {"schema": SCHEMA, "key": task.key, "record": asdict(record)}
+    write_json(task.folder / f"{task.stem}.json", body)
+    return record
+
+
+def _record(task: Task, true: Layout) -> Record:
+    if task.predicted is None:
+        return failed(true, "no prediction of that name")
+    try:
+        predicted = task.predicted.read()
+    except ArtgenError as error:
+        return failed(true, str(error))
+    held = gates(_source(task.predicted)) if task.gated and _simulated(task.predicted) else None
+    images = list(image_pairs(task.predicted, task.true))
+    record = score(predicted, true, task.protocol, gates=held, images=images)
+    write_bytes(task.folder / f"{task.stem}.png", strip(predicted, true))
+    return record
+
+
+def _simulated(place: Place) -> bool:
+    return place.format in SIMULATED
+
+
+def _source(place: Place) -> Source:
+    file = place.path / MANIFEST if FORMATS[place.format].whole else place.path
+    root = file.parent.parent if place.format == "urdformer" else file.parent
+    return Source(format=SIMULATED[place.format], file=file, root=root)
+
+
+def image_pairs(predicted: Place, true: Place) -> Iterator[ImageScores]:
+    """Scores of the images that both objects have under one name."""
+    folders = [
+        (own.path if own.path.is_dir() else own.path.parent) / IMAGES for own in (predicted, true)
+    ]
+    for path in sorted(folders[1].glob("*.png")):
+        other = folders[0] / path.name
+        if other.is_file():
+            (mine, mask), (theirs, true_mask) = (over_white(_rgba(p)) for p in (other, path))
+            yield image_scores(mine, theirs, mask, true_mask)
+
+
+def _rgba(path: Path) -> Floats:
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGBA"), float) / 255.0
+
+
+def _lost(task: Task, why: str) -> Record:
+    return Record(name=task.name, category="", parts=0, failure=why)
+
+
+def _kept(task: Task) -> Record | None:
+    """The record of an earlier run, where nothing that it depends on has changed."""
+    path = task.folder / f"{task.stem}.json"
+    try:
+        stated = json.loads(path.read_text(encoding="utf-8"))
+        if stated["schema"] != SCHEMA or stated["key"] != task.key:
+            return None
+        return record_from_json(stated["record"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def record_from_json(stated: dict[str, object]) -> Record:
+    """The record that `asdict` told."""
+    rows = stated.pop("joints")
+    joints = tuple(JointErrors(**row) for row in rows)  # type: ignore[attr-defined]
+    return Record(**stated, joints=joints)  # type: ignore[arg-type]
