@@ -32,6 +32,8 @@ OURS = frozenset(
         "work",
         "summary.csv",
         "contact_sheet.png",
+        "ingest_report.json",
+        "ingest_report.txt",
     }
 )
 """Names that a run may leave at the top of its folder."""

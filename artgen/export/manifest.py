@@ -1,6 +1,6 @@
 """The manifest: what an asset is, in numbers and words, and the hash of every other file."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,7 @@ import numpy as np
 from artgen.articulation.targets import swept_sphere
 from artgen.articulation.types import ArticulatedObject, Part
 from artgen.core.jsonio import file_hash, plain
+from artgen.core.mesh import TriMesh
 from artgen.export.kinematics import as_file_joint
 from artgen.export.layout import MANIFEST, REPORT, BoxPiece, collision_pieces, mesh_path
 from artgen.geometry.measure import total_volume
@@ -41,7 +42,7 @@ def manifest(obj: ArticulatedObject, folder: Path) -> dict[str, Any]:
         "schema": SCHEMA,
         "asset_id": obj.asset_id,
         "category": obj.category,
-        "license": LICENSE,
+        "license": license_text(obj.provenance),
         "conventions": CONVENTIONS,
         "versions": versions(),
         "bounds": bounds,
@@ -58,6 +59,27 @@ def manifest(obj: ArticulatedObject, folder: Path) -> dict[str, Any]:
     return entry
 
 
+def open_bodies(provenance: Mapping[str, object], part: str) -> list[int]:
+    """Numbers of a part's bodies that are open surfaces; a stranger's part may have some."""
+    shells = provenance.get("shells")
+    bodies = shells.get("bodies") if isinstance(shells, Mapping) else None
+    return list(bodies.get(part, ())) if isinstance(bodies, Mapping) else []
+
+
+def closed_volume(mesh: TriMesh, open_numbers: Sequence[int]) -> float:
+    """m3 of the bodies that are closed; 0 where none is."""
+    kept = ~np.isin(np.asarray(mesh.body), open_numbers)
+    if not kept.any():
+        return 0.0
+    return total_volume(TriMesh(vertices=mesh.vertices, faces=mesh.faces[kept]))
+
+
+def license_text(provenance: Mapping[str, object]) -> str:
+    """The terms of what an object was made from, or those of our own generators."""
+    stated = provenance.get("licence")
+    return str(stated["text"]) if isinstance(stated, Mapping) and "text" in stated else LICENSE
+
+
 def part_entry(obj: ArticulatedObject, part: Part) -> dict[str, Any]:
     """One part: names, measures, exact mass, collision as formats state it."""
     used = np.unique(np.asarray(part.mesh.slot))
@@ -69,7 +91,7 @@ def part_entry(obj: ArticulatedObject, part: Part) -> dict[str, Any]:
         "mass": part.mass.mass,
         "com": part.mass.center,
         "inertia": part.mass.inertia,
-        "volume": total_volume(part.mesh),
+        "volume": closed_volume(part.mesh, open_bodies(obj.provenance, part.name)),
         "triangles": len(part.mesh.faces),
         "bodies": int(np.asarray(part.mesh.body).max()) + 1,
         "densities": part.densities,

@@ -91,7 +91,7 @@ def _prepared(foreign: ForeignObject, meshes: ReadMeshes, options: Options) -> F
     foreign = capped(foreign, sizes, most=options.max_parts)
     reach = {j.child: float(np.abs(j.axis) @ spans[j.child]) for j in foreign.joints}
     joints, doubts = bounded_slides(foreign.joints, reach)
-    given = options.rests.get(foreign.id, {})
+    given = {rest.number: rest.q for rest in options.rests if rest.id == foreign.id}
     chosen = tuple(_with_rest(joint, given.get(joint.number)) for joint in joints)
     return dataclasses.replace(foreign, joints=chosen, doubts=(*foreign.doubts, *doubts))
 

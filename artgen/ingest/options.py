@@ -1,7 +1,16 @@
 """What the user decides of every object that comes in."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, kw_only=True)
+class GivenRest:
+    """A closed pose that the user knows better: of the object `id`, its moved part `number` (the
+    node in PartNet-Mobility, the joint's name in a URDF) is closed at `q`, degrees or units."""
+
+    id: str
+    number: str
+    q: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -14,8 +23,6 @@ class Options:
         density: kg/m3 of everything, as no source states it.
         thickness: m that open surfaces weigh as.
         pieces: cuts that a part's collision may take.
-        rests: object's id, then number of the moved part, to q that is closed, as the source
-            counts: degrees or units.
         licence: identifier of the terms of the source; None leaves it to the data set.
     """
 
@@ -24,5 +31,5 @@ class Options:
     density: float = 500.0
     thickness: float = 0.004
     pieces: int = 24
-    rests: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    rests: tuple[GivenRest, ...] = ()
     licence: str | None = None

@@ -108,6 +108,7 @@ def finished_parts(
     atlas = atlas_uv(
         [(mesh.vertices, mesh.faces) for mesh in meshes.values()], resolution=ATLAS_RESOLUTION
     )
+    pieces = convex_pieces({name: bodies[name] for name in names}, most=options.pieces)
     parts = []
     for (name, mesh), uv in zip(meshes.items(), atlas, strict=True):
         own = bodies[name]
@@ -124,7 +125,7 @@ def finished_parts(
                     slot=mesh.slot,
                     body=mesh.body,
                 ),
-                collision=convex_pieces(own, most=options.pieces),
+                collision=pieces[name],
                 mass=weighed(own, density=options.density, thickness=options.thickness),
                 densities=(options.density,) * len(own) if solid else None,
             )
@@ -164,4 +165,4 @@ def _uv(soup: Soup, tile: Floats, place: int) -> Floats:
     if not stated.all():
         faces = np.asarray(soup.faces, np.int32)
         uv[~stated] = metric_uv(soup.vertices, faces, grain=None, place=place)[~stated]
-    return uv
+    return np.asarray(uv, np.float64)

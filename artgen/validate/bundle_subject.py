@@ -20,6 +20,7 @@ from artgen.export.bundle import Bundle, read_bundle
 from artgen.export.layout import MANIFEST, MJCF, REPORT, URDF
 from artgen.export.manifest import SCHEMA
 from artgen.validate.objfile import read_triangles
+from artgen.validate.origin import Origin, origin_of
 from artgen.validate.physics import compiled_spec, read_spec
 from artgen.validate.second_opinion import NEED, absent
 from artgen.validate.shape import misshapen
@@ -86,6 +87,11 @@ class BundleSubject(Subject):
         """The manifest as it stands."""
         data: Mapping[str, Any] = json.loads((self.folder / MANIFEST).read_text(encoding="utf-8"))
         return data
+
+    @cached_property
+    def origin(self) -> Origin:
+        """What the manifest says of a foreign source."""
+        return origin_of(self.manifest)
 
     @cached_property
     def urdf(self) -> ET.Element:

@@ -56,8 +56,8 @@ def _finding(
 
 
 def _solid_volume(subject: Subject, part: SubjectPart) -> float | None:
-    """Volume of a part's bodies, m3; None where it has no mesh or no mass."""
-    if part.mass is None or part.name not in subject.volumes:
+    """Volume of a part's bodies, m3; None where it has no mesh or no mass, or where one is open."""
+    if part.mass is None or part.name not in subject.volumes or part.name in subject.origin.shells:
         return None
     return float(subject.volumes[part.name].sum())
 
@@ -70,7 +70,12 @@ def densities(subject: Subject) -> Iterator[Finding | Skipped]:
     for part in subject.parts:
         volume = _solid_volume(subject, part)
         if volume is None or part.mass is None:
-            yield Skipped(name="inertia.density", reason=f"{part.name} states no mass or no mesh")
+            why = (
+                "has open surfaces"
+                if part.name in subject.origin.shells
+                else "states no mass or no mesh"
+            )
+            yield Skipped(name="inertia.density", reason=f"{part.name} {why}")
             continue
         bodies = len(subject.volumes[part.name])
         if part.densities is not None and len(part.densities) != bodies:
@@ -89,7 +94,7 @@ def centers(subject: Subject) -> Iterator[Finding]:
     for part in subject.parts:
         if part.mass is None or part.name not in subject.meshes:
             continue  # Told by `densities`.
-        lower, upper = subject.boxes[part.name]
+        lower, upper = subject.boxes[part.name] + _sheet(subject, part)
         inside = np.minimum(upper - part.mass.center, part.mass.center - lower)
         if inside.min() <= 0.0:
             cause = "the center is stated in another frame"
@@ -107,6 +112,12 @@ def centers(subject: Subject) -> Iterator[Finding]:
             cause = "the tensor needs mass outside the part"
             remedy = "integrate about its center of mass"
             yield _finding("inertia.extent", part.name, worst, "0 to 1 of the box's", cause, remedy)
+
+
+def _sheet(subject: Subject, part: SubjectPart) -> Floats:
+    """(2, 1) m by which sheets, which weigh as if they had a thickness, stand out of their box."""
+    half = subject.origin.thickness / 2.0 if part.name in subject.origin.shells else 0.0
+    return np.array([[-half], [half]])
 
 
 def ratio(subject: Subject) -> Iterator[Finding]:

@@ -61,7 +61,8 @@ class Interior:
 
 def own_interiors(subject: BundleSubject) -> Iterator[Finding | Note]:
     """What one sees room for has room, in every container; how much is noted."""
-    yield from _judged(subject, subject.bounds.open_interior)
+    foreign, bounds = subject.origin.foreign, subject.bounds
+    yield from _judged(subject, bounds.open_interior_foreign if foreign else bounds.open_interior)
 
 
 def foreign_interiors(subject: Subject) -> Iterator[Finding | Note]:

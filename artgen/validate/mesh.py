@@ -38,7 +38,8 @@ def readable(subject: Subject) -> Iterator[Finding]:
 
 
 def closed(subject: Subject) -> Iterator[Finding]:
-    """Every body is an oriented closed 2-manifold (manifold3d accepts it)."""
+    """Every body is an oriented closed 2-manifold (manifold3d accepts it), but those of a stranger
+    that the manifest says to be open."""
     for name, shape in subject.shapes.items():
         if (count := repeated(subject.meshes[name].faces)) > 0:
             yield Finding(
@@ -51,8 +52,9 @@ def closed(subject: Subject) -> Iterator[Finding]:
             )
         elif edges_close(subject.meshes[name].faces):
             continue  # Nothing else keeps manifold3d from accepting finite triangles.
+        shells = subject.origin.shells.get(name, frozenset())
         for index, body in enumerate(shape.bodies):
-            if (status := body.status().name) != "NoError":
+            if index not in shells and (status := body.status().name) != "NoError":
                 value, cause = _diagnosis(subject.meshes[name], index)
                 yield Finding(
                     check="mesh.closed",
@@ -90,8 +92,9 @@ def _diagnosis(mesh: TriMesh, body: int) -> tuple[float | str, str]:
 def volumes(subject: Subject) -> Iterator[Finding]:
     """Every body encloses a positive volume: outward normals."""
     for name, found in subject.volumes.items():
+        shells = subject.origin.shells.get(name, frozenset())
         for index, volume in enumerate(found.tolist()):
-            if volume <= 0.0:
+            if volume <= 0.0 and index not in shells:
                 yield Finding(
                     check="mesh.volume",
                     part=f"{name}, body {index}",
@@ -162,7 +165,7 @@ def stated(subject: BundleSubject) -> Iterator[Finding]:
             "triangles": (abs(len(mesh.faces) - part.triangles), 0),
             "bodies": (abs(int(mesh.body.max()) + 1 - part.bodies), 0),  # type: ignore[union-attr]
             "volume": (
-                relative_difference(float(subject.volumes[part.name].sum()), part.volume),
+                relative_difference(_closed_volume(subject, part.name), part.volume),
                 subject.bounds.integral.value,
             ),
         }
@@ -176,6 +179,13 @@ def stated(subject: BundleSubject) -> Iterator[Finding]:
                     cause="the OBJ is of another export",
                     remedy=EXPORT_ANEW,
                 )
+
+
+def _closed_volume(subject: BundleSubject, part: str) -> float:
+    """m3 of all bodies of a part that are closed."""
+    found = subject.volumes[part].copy()
+    found[list(subject.origin.shells.get(part, ()))] = 0.0
+    return float(found.sum())
 
 
 def relative_difference(one: float, other: float) -> float:

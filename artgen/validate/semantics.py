@@ -100,6 +100,9 @@ def object_bounds(subject: Subject) -> Floats:
 
 def bands(subject: BundleSubject) -> Iterator[Finding | Skipped]:
     """Width, depth, height and mass lie in the category's bands."""
+    if subject.origin.foreign:
+        yield Skipped(name="semantics.band", reason="no rule of ours made it")
+        return
     category = subject.bundle.category
     try:
         rule = packaged_rule(category)

@@ -124,7 +124,7 @@ def axes(subject: Subject) -> Iterator[Finding]:
 
 def limits(subject: Subject) -> Iterator[Finding]:
     """Known type; finite lower <= 0 < upper; at most one turn for a hinge. In a bundle lower = 0,
-    as rest is closed; what closes nothing may turn both ways alike."""
+    as rest is closed; what closes nothing may turn both ways alike, and a stranger's as it may."""
     turn = subject.bounds.full_turn
     ours = subject.lacks("manifest") is None
     closing = _closing(subject) if isinstance(subject, BundleSubject) else frozenset()
@@ -143,8 +143,10 @@ def limits(subject: Subject) -> Iterator[Finding]:
             yield _joint_finding(
                 "structure.limit", joint, value, "finite lower < upper", cause, remedy
             )
-        elif ours and joint.lower not in (
-            (0.0,) if joint.child in closing else (0.0, -joint.upper)
+        elif (
+            ours
+            and not subject.origin.foreign
+            and joint.lower not in ((0.0,) if joint.child in closing else (0.0, -joint.upper))
         ):
             cause, remedy = "rest must be closed", "put the closed end at 0 and let +q open"
             yield _joint_finding("structure.rest", joint, joint.lower, "lower = 0", cause, remedy)

@@ -14,6 +14,7 @@ from artgen.articulation.types import Joint, Mass, Precondition
 from artgen.core.mesh import Floats, TriMesh
 from artgen.geometry.clearance import Shape, shape_of_mesh
 from artgen.validate.bounds import Bounds
+from artgen.validate.origin import Origin
 from artgen.validate.stated import StatedBody, StatedJoint
 
 
@@ -119,6 +120,11 @@ class Subject(ABC):
     @abstractmethod
     def preconditions(self) -> tuple[Precondition, ...]:
         """Joints that may move only while others are open."""
+
+    @property
+    def origin(self) -> Origin:
+        """What is known of a foreign source; nothing where the format cannot say."""
+        return Origin()
 
     @property
     def passages(self) -> tuple[Precondition, ...]:

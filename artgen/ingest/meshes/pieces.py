@@ -6,7 +6,7 @@ full if its hull is no thicker than a wall; so hollows of open surfaces stay ope
 """
 
 import heapq
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import manifold3d as m3
@@ -23,8 +23,16 @@ FULL = 0.9
 """Of its hull that a solid fills which stands for its own piece."""
 WALL = 0.02
 """Of the part's diagonal: a shell whose hull is thinner than this in the mean is full."""
+CRUMB = 2e-5
+"""Of the cube of the part's diagonal: a hollow of less room is not worth a cut."""
 SHEET = 1e-3
-"""m; thickness of the piece of a flat shell."""
+"""m; thickness of the piece of a flat shell, behind its outer side."""
+ROUNDS = 6
+"""Times that pieces which meet another part's are halved."""
+DEEP = 1e-4
+"""m; pieces that share less than this in depth touch."""
+SLACK = 0.02
+"""Of its hull: a piece with less slack is not cut for another part's sake."""
 PLACES = 14
 """Places along an axis at which a cut is tried."""
 GAIN = 0.97
@@ -43,27 +51,88 @@ class Chunk:
     excess: float
 
 
-def convex_pieces(bodies: Sequence[Body], *, most: int) -> tuple[TriMesh, ...]:
-    """Convex meshes that together cover a part's bodies: one a body, and up to `most` cuts more;
-    those that lie within others are left out."""
+def convex_pieces(
+    parts: Mapping[str, Sequence[Body]], *, most: int
+) -> dict[str, tuple[TriMesh, ...]]:
+    """Part name to convex meshes that together cover its bodies: one a body, and up to `most` cuts
+    more; those that lie within others are left out.
+
+    Pieces of different parts that meet at rest are then cut on, as long as one of them is not full
+    and for as many cuts again: a hull's slack must not stand in another part's way.
+    """
+    walls = {name: _wall(own) for name, own in parts.items()}
+    found = {name: _cut(own, walls[name], most) for name, own in parts.items()}
+    left = dict.fromkeys(parts, most)
+    for _ in range(ROUNDS):
+        if not (meeting := _meeting(found, left)):
+            break
+        for name, numbers in meeting.items():
+            kept = [chunk for k, chunk in enumerate(found[name]) if k not in numbers]
+            for number in sorted(numbers):
+                kept += list(_halves(found[name][number], walls[name]))
+            left[name] -= len(numbers)
+            found[name] = kept
+    return {n: tuple(_mesh(chunk) for chunk in _uncovered(own)) for n, own in found.items()}
+
+
+def _wall(bodies: Sequence[Body]) -> float:
+    """m; as thick as walls of the part may be."""
     corners = np.concatenate([body.soup.vertices for body in bodies])
-    wall = WALL * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    return WALL * float(np.linalg.norm(np.ptp(corners, axis=0)))
+
+
+def _cut(bodies: Sequence[Body], wall: float, most: int) -> list[Chunk]:
+    """Chunks of one part, the emptiest cut first."""
+    crumb = CRUMB * (wall / WALL) ** 3
     waiting: list[tuple[float, int, Chunk]] = []
     for number, body in enumerate(bodies):
         chunk = _chunk(body.soup.vertices[body.soup.faces], _solid(body), wall)
         heapq.heappush(waiting, (-chunk.excess, number, chunk))
     serial, cuts = len(bodies), 0
-    while cuts < most and waiting[0][0] < 0.0:
+    while cuts < most and waiting[0][0] < -crumb:
         _, _, chunk = heapq.heappop(waiting)
         halves = list(_halves(chunk, wall))
-        if len(halves) < 2:
-            halves = [_settled(chunk)]
-        for half in halves:
+        for half in halves if len(halves) == 2 else [_settled(chunk)]:
             heapq.heappush(waiting, (-half.excess, serial, half))
             serial += 1
         cuts += 1
-    found = [chunk for _, _, chunk in sorted(waiting, key=lambda entry: entry[1])]
-    return tuple(_mesh(chunk) for chunk in _uncovered(found))
+    return [chunk for _, _, chunk in sorted(waiting, key=lambda entry: entry[1])]
+
+
+def _meeting(found: Mapping[str, Sequence[Chunk]], left: Mapping[str, int]) -> dict[str, set[int]]:
+    """By part: chunks that share room with another part's and have slack, as many as cuts are
+    left."""
+    owners = [(name, k) for name, own in found.items() for k in range(len(own))]
+    boxes = np.array([_bounds(found[name][k].hull) for name, k in owners])
+    groups = np.array([list(found).index(name) for name, _ in owners])
+    depth = np.minimum(boxes[:, None, 1], boxes[None, :, 1]) - np.maximum(
+        boxes[:, None, 0], boxes[None, :, 0]
+    )
+    near = (depth > DEEP).all(axis=2) & (groups[:, None] < groups[None, :])
+    meeting: dict[str, set[int]] = {}
+    for i, j in zip(*np.nonzero(near), strict=True):
+        pair = [found[owners[i][0]][owners[i][1]], found[owners[j][0]][owners[j][1]]]
+        if (pair[0].hull ^ pair[1].hull).volume() <= DEEP**3:
+            continue
+        for (name, number), chunk in zip((owners[i], owners[j]), pair, strict=True):
+            room = len(meeting.get(name, ())) < left[name]
+            if room and _slack(chunk) > SLACK * chunk.hull.volume():
+                meeting.setdefault(name, set()).add(number)
+    return meeting
+
+
+def _slack(chunk: Chunk) -> float:
+    """m3 of a hull that its body does not fill; of a shell, all but a sheet."""
+    if chunk.solid is not None:
+        return float(chunk.hull.volume() - chunk.solid.volume())
+    a, b, c = chunk.corners.transpose(1, 0, 2)
+    area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2.0
+    return float(chunk.hull.volume() - area * SHEET)
+
+
+def _bounds(hull: m3.Manifold) -> Floats:
+    lower_x, lower_y, lower_z, x, y, z = hull.bounding_box()
+    return np.array([[lower_x, lower_y, lower_z], [x, y, z]])
 
 
 def _solid(body: Body) -> m3.Manifold | None:
@@ -83,8 +152,8 @@ def _chunk(corners: Floats, solid: m3.Manifold | None, wall: float) -> Chunk:
         )
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normal, axis=1)
-    lift = SHEET / 2.0 * (normal / length.clip(min=1e-300)[:, None])[:, None]
-    hull = m3.Manifold.hull_points(np.concatenate([corners + lift, corners - lift]).reshape(-1, 3))
+    sheet = SHEET * (normal / length.clip(min=1e-300)[:, None])[:, None]
+    hull = m3.Manifold.hull_points(np.concatenate([corners, corners - sheet]).reshape(-1, 3))
     allowed = max(float(length.sum()) / 4.0 * wall, wall**3)
     return Chunk(corners=corners, solid=None, hull=hull, excess=float(hull.volume() - allowed))
 

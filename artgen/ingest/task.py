@@ -1,0 +1,169 @@
+"""One foreign object to one bundle: read, built, written, judged; and what became of it."""
+
+import dataclasses
+import os
+import re
+import shutil
+import xml.etree.ElementTree as ET
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from artgen.core.errors import ArtgenError, IngestError
+from artgen.core.jsonio import fill_folder_atomically, plain, write_json
+from artgen.export import write_bundle
+from artgen.ingest.build import Built, build
+from artgen.ingest.foreign import ForeignObject
+from artgen.ingest.options import Options
+from artgen.ingest.partnet.folder import read_partnet
+from artgen.pipeline import Toolbox
+from artgen.run_folder import RunFolder
+from artgen.validate import Report, validate_bundle
+
+Kind = Literal["partnet", "urdf", "static"]
+Status = Literal["valid", "flawed", "refused"]
+READERS: Mapping[str, Callable[[Path], ForeignObject]] = {"partnet": read_partnet}
+"""Kind of source to the function that reads one object of it."""
+BROKEN = (ET.ParseError, ValueError, LookupError, TypeError, ArithmeticError, RecursionError)
+"""What damaged input makes libraries raise beyond our own errors."""
+MOST_SAID = 3
+"""Findings that a line of the report quotes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class IngestTask:
+    """One object of a run."""
+
+    kind: Kind
+    path: Path
+    asset_id: str
+    options: Options
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """What became of an object.
+
+    Attributes:
+        status: valid: no finding; flawed: a bundle whose report has findings about how the source
+            moves or overlaps; refused: no bundle, or one that no simulator can use, set aside.
+        message: one line: why it is flawed or refused.
+        said: what was mended, dropped and doubted.
+    """
+
+    asset_id: str
+    source: str
+    status: Status
+    category: str = ""
+    parts: int = 0
+    joints: int = 0
+    message: str = ""
+    said: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+
+
+def category_name(word: str) -> str:
+    """A source's category as a name of ours: StorageFurniture is storage_furniture."""
+    apart = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", word)
+    name = re.sub(r"[^a-z0-9]+", "_", apart.lower()).strip("_")
+    return name or "unknown"
+
+
+def ingest(task: IngestTask, tools: Toolbox) -> Outcome:
+    """Read, build, write and judge one object; a bundle lands in assets/, or in failed/ where no
+    simulator can use it. Input that cannot be used is an outcome, not an error."""
+    try:
+        foreign = READERS[task.kind](task.path)
+        category = category_name(foreign.category)
+        built = build(foreign, task.options, asset_id=task.asset_id, category=category)
+        return _written(task, built, tools)
+    except ArtgenError as error:
+        return refused(task, str(error))
+    except OSError as error:
+        return refused(task, f"{error.strerror or error}: {error.filename}")
+    except MemoryError:
+        return refused(task, "it takes more memory than there is")
+    except BROKEN as error:
+        return refused(task, f"its files cannot be understood: {error!r}")
+
+
+def refused(task: IngestTask, message: str) -> Outcome:
+    """The outcome of an object that cannot be used."""
+    line = " ".join(message.split())
+    return Outcome(
+        asset_id=task.asset_id, source=str(task.path), status="refused", message=line[:500]
+    )
+
+
+def _written(task: IngestTask, built: Built, tools: Toolbox) -> Outcome:
+    """The bundle on disk and its verdict."""
+    obj, folder = built.obj, tools.folder
+    for spec, images in built.images:
+        tools.textures.keep(spec, images)
+    staged = folder.work / "staged" / f"{task.asset_id}_{os.getpid()}"
+    reports: list[Report] = []
+
+    def fill(partial: Path) -> None:
+        write_bundle(obj, partial, library=tools.textures, worker=tools.blender)
+        reports.append(validate_bundle(partial))
+        write_json(partial / "report.json", reports[0].as_json())
+
+    fill_folder_atomically(staged, fill)
+    status, message = verdict(reports[0])
+    homes = (
+        folder.assets / obj.category / task.asset_id,
+        folder.failed / obj.category / task.asset_id,
+    )
+    home, other = reversed(homes) if status == "refused" else homes
+    _move(staged, home)
+    shutil.rmtree(other, ignore_errors=True)
+    keys = ("source", "licence", "scale", "joints_read", "mended", "dropped", "doubts", "art")
+    return Outcome(
+        asset_id=task.asset_id,
+        source=str(task.path),
+        status=status,
+        category=obj.category,
+        parts=len(obj.parts),
+        joints=len(obj.joints),
+        message=message,
+        said={key: obj.provenance[key] for key in keys},
+    )
+
+
+NEEDED = ("files", "structure", "mesh", "inertia", "compile")
+"""Findings of these kinds keep a bundle from being used; others tell how the source is."""
+
+
+def verdict(report: Report) -> tuple[Status, str]:
+    """Status and one line that a report amounts to."""
+    if report.ok:
+        return "valid", ""
+    grave = [f for f in report.findings if f.check.split(".")[0] in NEEDED]
+    shown = (grave or list(report.findings))[:MOST_SAID]
+    more = len(report.findings) - len(shown)
+    line = "; ".join(str(finding) for finding in shown) + (f"; {more} more" if more else "")
+    return ("refused" if grave else "flawed"), line
+
+
+def _move(staged: Path, home: Path) -> None:
+    """One rename; what stood there before is removed first."""
+    home.parent.mkdir(parents=True, exist_ok=True)
+    if home.exists():
+        shutil.rmtree(home)
+    staged.rename(home)
+
+
+def record_path(folder: RunFolder, asset_id: str) -> Path:
+    """Where the outcome of an object is kept, so that a run can resume."""
+    return folder.logs / "ingest" / f"{asset_id}.json"
+
+
+def write_record(folder: RunFolder, task: IngestTask, outcome: Outcome, settings: str) -> None:
+    """Keep an outcome; `settings` is a hash of all that it depends on but the source's files."""
+    entry = {"settings": settings, "path": str(task.path), "outcome": plain(outcome)}
+    write_json(record_path(folder, task.asset_id), entry)
+
+
+def unknown_kind(kind: str) -> IngestError:
+    """No reader of that kind."""
+    return IngestError(f"{kind!r} is no kind of source; known: {', '.join(READERS)}")
