@@ -21,6 +21,10 @@ MOST_INSIDE = 0.08
 """Share of a moving part that may lie inside another on its way and be taken for noise."""
 MOST_EATEN = 0.2
 """Share of its volume that a part may lose to another's way."""
+MOST_GIVEN = 0.5
+"""The same where its way would else be all but lost."""
+LEAST_LEFT = 0.4
+"""Share of its way that a joint keeps at least, if cutting can help it."""
 SLACK = 0.1
 """Share of the clearance by which merging triangles may move a cut surface."""
 WORTH = 1e-10
@@ -109,16 +113,19 @@ def _cleared(scene: Scene, cutter: Cutter, sweep: Sweep, pair: tuple[str, str]) 
         return scene
     limit = MOST_INSIDE * min(sum(piece.volume for piece in tool), whole.volume)
     deep = np.flatnonzero(shared > limit)
-    if not len(deep):
-        left = whole - swept(tool, _around(course, met))
-        share = 1.0 - left.volume / whole.volume
-        if share <= MOST_EATEN:
-            scene = scene.with_solid(loses, cutter.mended(left))
-            return scene.told(f"{loses} gave way to {wins} along {sweep.joint}, by {share:.1%}")
-        deep = met
+    left = whole - swept(tool, _around(course, met))
+    share = 1.0 - left.volume / whole.volume
+    cut = scene.with_solid(loses, cutter.mended(left)) if share <= MOST_GIVEN else scene
+    cut = cut.told(f"{loses} gave way to {wins} along {sweep.joint}, by {share:.1%} of its volume")
+    if not len(deep) and share <= MOST_EATEN:
+        return cut
     if loses not in scene.carriers(wins) and (waits := _waiting(scene, cutter, sweep, pair)):
         return waits
-    return scene.ended(sweep, deep.tolist(), loses if wins in scene.moved_by(sweep.joint) else wins)
+    other = loses if wins in scene.moved_by(sweep.joint) else wins
+    shorter = scene.ended(sweep, (deep if len(deep) else met).tolist(), other)
+    stuck = shorter.span(sweep.joint) < LEAST_LEFT * scene.span(sweep.joint)
+    blocked = shorter.joints == scene.joints
+    return cut if (stuck or blocked) and share <= MOST_GIVEN else shorter
 
 
 def _around(course: Floats, met: NDArray[np.intp]) -> Floats:

@@ -31,7 +31,7 @@ from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
 from artgen.finish import finish
 from artgen.geometry.solid import Solid, union
-from artgen.textures.images import TextureSet
+from artgen.textures.images import Image, TextureSet
 from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways
 from model.reconstruct.contact import contact_pieces
 from model.reconstruct.guess import ObjectGuess
@@ -86,6 +86,13 @@ class Assembled:
     shift: Floats
     states: tuple[Mapping[str, float], ...]
     changes: tuple[str, ...]
+
+    @property
+    def color(self) -> Image:
+        """(S, S, 3) uint8 sRGB on the atlas."""
+        if self.images.color is None:
+            raise ModelError("a reconstruction has no color image; color it first")
+        return self.images.color
 
 
 def assemble(

@@ -11,7 +11,7 @@ from artgen.articulation.states import open_state, required_state, travel
 from artgen.articulation.types import ArticulatedObject, State
 from artgen.core.camera import Camera, framed, orbit_direction
 from artgen.core.mesh import Floats
-from artgen.imaging import png_file
+from artgen.imaging import Singles, png_file
 from model.reconstruct.draw import Bytes, Painter, gif_bytes, over
 
 SIDE = 256
@@ -108,6 +108,13 @@ class Reprojection:
         """Of the two silhouettes."""
         one, other = self.seen[..., 3] > 127, self.shown[..., 3] > 127
         return float((one & other).sum() / max(int((one | other).sum()), 1))
+
+
+def straight(rgb: Singles, alpha: Singles) -> Bytes:
+    """(H, W, 4) uint8 of a picture over white (H, W, 3) and its coverage (H, W, 1)."""
+    color = (rgb - (1.0 - alpha)) / np.where(alpha > 0.0, alpha, 1.0)
+    rgba = np.concatenate([np.clip(color, 0.0, 1.0), alpha], axis=-1)
+    return np.rint(255.0 * rgba).astype(np.uint8)
 
 
 def side_by_side(found: Sequence[Reprojection]) -> bytes:

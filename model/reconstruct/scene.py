@@ -61,6 +61,11 @@ class Scene:
         path = np.linspace(*travel(self.joint(joint)), POSES).tolist()
         return Sweep(joint=joint, states=tuple({**(others or {}), joint: q} for q in path))
 
+    def span(self, joint: str) -> float:
+        """From one end of a joint's way to the other, rad or m."""
+        lower, upper = travel(self.joint(joint))
+        return upper - lower
+
     def told(self, *changes: str) -> "Scene":
         """The same with more to tell."""
         return dataclasses.replace(self, changes=(*self.changes, *changes))

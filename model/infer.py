@@ -1,0 +1,74 @@
+"""Images and cameras to a Prediction: what is asked of a capture, and the network's one pass."""
+
+import torch
+from torch import Tensor
+
+from artgen.core.errors import ModelError
+from model.art import Art
+from model.batch import Images
+from model.config import Config
+from model.prediction import Prediction
+
+
+def predict(art: Art, config: Config, images: Images, *, parts: int | None) -> Prediction:
+    """What the network makes of one object.
+
+    Args:
+        parts: how many, base included; None asks the network, which may have a head for it.
+
+    Raises:
+        ModelError: the images are not what the network was trained on, or the number of parts is
+            not given, or more than it has slots.
+    """
+    check_images(config, images)
+    with torch.inference_mode():
+        if parts is None:
+            parts = counted(art, config, images)
+        check_parts(config, parts)
+        return art(images, first_slots(config, parts, len(images.rgb_BTV3HW)))
+
+
+def first_slots(config: Config, parts: int, objects: int) -> Tensor:
+    """(B, P) bool: the first `parts` slots of each object."""
+    valid = torch.arange(config.model.slots) < parts
+    return valid.expand(objects, -1).clone()
+
+
+def counted(art: Art, config: Config, images: Images) -> int:
+    """How many parts the network counts.
+
+    Raises:
+        ModelError: it has no head for that.
+    """
+    if not config.model.count:
+        raise ModelError(
+            "the number of parts is not given and this checkpoint does not count them; say --parts "
+            f"N, 1 to {config.model.slots}, base included"
+        )
+    count = art(images, first_slots(config, 1, len(images.rgb_BTV3HW))).count()
+    return 1 if count is None else int(count[0])
+
+
+def check_parts(config: Config, parts: int) -> None:
+    """Raise ModelError unless the network has so many slots."""
+    if not 1 <= parts <= config.model.slots:
+        raise ModelError(
+            f"--parts {parts}: this checkpoint has {config.model.slots} slots, base included; give "
+            f"1 to {config.model.slots}"
+        )
+
+
+def check_images(config: Config, images: Images) -> None:
+    """Raise ModelError unless states and views are as many as the network can read."""
+    states, views = images.rgb_BTV3HW.shape[1:3]
+    most, trained = config.model.images.states, config.data.views
+    if not 1 <= states <= most:
+        raise ModelError(
+            f"the images show {states} states, this checkpoint reads up to {most}; leave some out, "
+            "or train with more states"
+        )
+    if views < trained:
+        raise ModelError(
+            f"the images show {views} views a state, this checkpoint was trained on {trained}; add "
+            "views, or use a checkpoint for fewer"
+        )

@@ -1,0 +1,160 @@
+"""`artgen reconstruct`: the option list, and the help."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+from rich.console import Console
+
+from artgen.core.errors import UsageError
+from artgen.progress import progress
+from artgen.system_libraries import check_libraries
+from model.reconstruct import run
+from model.reconstruct.assemble import CATEGORY, CLEARANCE, Wishes
+from model.reconstruct.physics import DENSITY
+
+RESOLUTION = 64
+FEWEST, MOST = 8, 512
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reconstruct:
+    """Turn images of an object in two or more states into a bundle: GLB, URDF, MJCF, USD.
+
+    IMAGES is a folder; --cameras says where each of its images was taken from and in which state:
+    our own JSON, NeRF's transforms.json, or a folder with COLMAP's text files. The foreground comes
+    from the alpha channel, from --masks or from --segmenter. The result passes the validators that
+    every asset passes; OUT receives bundle/, turntable.gif, articulation.gif, reprojection.png and
+    prediction.json. Exit code 1: the bundle was written, but did not pass.
+
+    For example:
+
+    artgen reconstruct examples/cabinet --cameras examples/cabinet/cameras.json --parts 3
+
+    artgen reconstruct photos --masks masks --checkpoint art.safetensors
+    """
+
+    images: Annotated[Path, tyro.conf.arg(metavar="IMAGES"), tyro.conf.Positional]
+    """Folder of the images."""
+    cameras: Path | None = None
+    """Camera file; IMAGES/cameras.json or IMAGES/transforms.json if not given."""
+    checkpoint: Path | None = None
+    """A trained network (art.safetensors); the one that ships if not given."""
+    parts: int | None = None
+    """How many parts the object has, base included; if not given, the network counts."""
+    out: Path | None = None
+    """New folder for the results; out/reconstruct/NAME if not given, NAME as of IMAGES."""
+    masks: Path | None = None
+    """Folder of mask files, named like the images: bright, or opaque, is foreground."""
+    segmenter: str = ""
+    """An installed segmenter (entry point in artgen.segmenters) for images without alpha."""
+    resolution: int = RESOLUTION
+    """Grid on which each part's surface is looked for, 8 to 512."""
+    category: str = CATEGORY
+    """Category of the bundle; one that `artgen categories` lists is held to its sizes."""
+    density: float = DENSITY
+    """kg/m3 of all parts; images do not show weight."""
+    clearance: float = CLEARANCE
+    """m of air between parts at rest."""
+    films: bool = True
+    """Also make the GIFs and the reprojection."""
+
+
+def reconstruct(argv: Sequence[str]) -> int:
+    """Images of an object in several states to a simulation-ready bundle."""
+    command = tyro.cli(Reconstruct, args=list(argv), prog="artgen reconstruct")
+    order = ordered(command)
+    check_libraries()
+    with progress("stages", len(run.STAGES)) as advance:
+        outcome = run.reconstruct(order, advance)
+    announce(order, outcome)
+    return 0 if outcome.report.ok else 1
+
+
+def ordered(command: Reconstruct) -> run.Order:
+    """The order behind the options.
+
+    Raises:
+        UsageError: a number is out of range, or a file is not there.
+    """
+    if not FEWEST <= command.resolution <= MOST:
+        raise UsageError(f"--resolution {command.resolution}: expected {FEWEST} to {MOST}")
+    if not (command.density > 0.0 and command.clearance > 0.0):
+        raise UsageError(
+            f"--density {command.density:g} and --clearance {command.clearance:g} must be more "
+            "than 0"
+        )
+    if not command.images.is_dir():
+        raise UsageError(f"{command.images}: is no folder; name the folder of the images")
+    name = run.asset_name(command.images)
+    return run.Order(
+        images=command.images,
+        cameras=command.cameras or cameras_beside(command.images),
+        checkpoint=command.checkpoint or shipped_checkpoint(),
+        parts=command.parts,
+        out=command.out or Path("out/reconstruct") / command.images.resolve().name,
+        masks=command.masks,
+        segmenter=command.segmenter,
+        resolution=command.resolution,
+        wishes=Wishes(
+            asset_id=name,
+            category=command.category,
+            clearance=command.clearance,
+            density=command.density,
+        ),
+        films=command.films,
+    )
+
+
+NAMES = ("cameras.json", "transforms.json", "images.txt")
+
+
+def cameras_beside(images: Path) -> Path:
+    """The camera file in the folder of the images.
+
+    Raises:
+        UsageError: there is none.
+    """
+    for name in NAMES:
+        if (images / name).is_file():
+            return images / name
+    raise UsageError(f"{images}: holds none of {', '.join(NAMES)}; say --cameras FILE")
+
+
+SHIPPED = Path(__file__).parents[1] / "weights" / "art.safetensors"
+
+
+def shipped_checkpoint() -> Path:
+    """The network that comes with the package.
+
+    Raises:
+        UsageError: this installation has none.
+    """
+    if not SHIPPED.is_file():
+        raise UsageError(
+            f"no checkpoint ships with this installation ({SHIPPED}); train one by `artgen train` "
+            "and say --checkpoint FILE"
+        )
+    return SHIPPED
+
+
+def announce(order: run.Order, outcome: run.Outcome) -> None:
+    """What was found, where everything lies, and what took how long."""
+    console = Console(highlight=False, soft_wrap=True)
+    obj = outcome.assembled.object
+    verdict = "valid" if outcome.report.ok else "INVALID"
+    mean = sum(outcome.ious) / max(len(outcome.ious), 1)
+    console.print(
+        f"{obj.asset_id}: {len(obj.parts)} parts, {len(obj.joints)} joints, {verdict}; silhouettes "
+        f"agree to {mean:.2f} (IoU, {len(outcome.ious)} images)"
+    )
+    for change in outcome.assembled.changes:
+        console.print(f"    {change}", markup=False)
+    for finding in outcome.report.findings:
+        console.print(f"    {finding}", markup=False)
+    for path in sorted(order.out.iterdir()):
+        console.print(f"  {path}")
+    told = ", ".join(f"{stage} {seconds:.1f}" for stage, seconds in outcome.seconds.items())
+    console.print(f"seconds: {told}; {sum(outcome.seconds.values()):.1f} in all")

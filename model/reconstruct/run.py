@@ -1,0 +1,251 @@
+"""From a capture and a checkpoint to a folder: bundle, films, pictures, the prediction as JSON."""
+
+import re
+import tempfile
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from artgen.core.errors import UsageError
+from artgen.core.jsonio import file_hash, fill_folder_atomically, write_bytes, write_json
+from artgen.export import write_bundle
+from artgen.textures.library import TextureLibrary
+from artgen.validate import Report, validate_bundle
+from artgen.worker import BlenderWorker
+from model.art_file import load_art
+from model.config import Config
+from model.extract import part_meshes
+from model.infer import predict
+from model.prediction import Prediction
+from model.reconstruct import films
+from model.reconstruct.assemble import Assembled, Wishes, assemble
+from model.reconstruct.capture import Capture, read_capture
+from model.reconstruct.draw import Painter
+from model.reconstruct.guess import Surface, object_guess
+from model.reconstruct.hull import VisualHull, check_cameras
+from model.reconstruct.masks import found_segmenter
+from model.reconstruct.record import record
+from model.reconstruct.rig import read_rig
+from model.reconstruct.sight import Sphere, in_object, network_images, sphere_of
+
+BUNDLE = "bundle"
+TURNTABLE = "turntable.gif"
+ARTICULATION = "articulation.gif"
+REPROJECTION = "reprojection.png"
+PREDICTION = "prediction.json"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Order:
+    """What is to be reconstructed.
+
+    Attributes:
+        images: folder that image names in the camera file are relative to.
+        cameras: camera file, or COLMAP's folder.
+        parts: how many, base included; None asks the network.
+        out: folder that receives the results; it must not exist.
+        masks: folder of mask files; None where alpha, or the camera file, tells the foreground.
+        segmenter: name of an installed one; empty for none.
+        resolution: of the grid that each part is extracted on.
+        films: whether GIFs and the reprojection are made.
+    """
+
+    images: Path
+    cameras: Path
+    checkpoint: Path
+    parts: int | None
+    out: Path
+    masks: Path | None
+    segmenter: str
+    resolution: int
+    wishes: Wishes
+    films: bool = True
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Outcome:
+    """What came of it.
+
+    Attributes:
+        seconds: by stage.
+        ious: of input and reprojected silhouettes.
+    """
+
+    report: Report
+    assembled: Assembled
+    seconds: Mapping[str, float]
+    ious: tuple[float, ...]
+
+
+class Stopwatch:
+    """Seconds by stage; `advance` hears of each."""
+
+    def __init__(self, advance: Callable[[str], None]) -> None:
+        self.seconds: dict[str, float] = {}
+        self._advance = advance
+        self._last = time.perf_counter()
+
+    def lap(self, stage: str) -> None:
+        """Book the time since the last lap on `stage`."""
+        now = time.perf_counter()
+        self.seconds[stage] = now - self._last
+        self._last = now
+        self._advance(stage)
+
+
+STAGES = (
+    "checkpoint",
+    "images",
+    "network",
+    "surfaces",
+    "assembly",
+    "films",
+    "export",
+    "validation",
+)
+
+
+def asset_name(images: Path) -> str:
+    """A name for the asset's files, from the folder of the images."""
+    word = re.sub(r"[^a-z0-9]+", "_", images.resolve().name.lower()).strip("_")
+    return f"reconstruction_{word}" if word else "reconstruction"
+
+
+def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
+    """Fill `order.out`.
+
+    Raises:
+        UsageError: the folder exists. ModelError: the checkpoint, the cameras or the images cannot
+            be used. GeometryError: no object can be made of the prediction.
+    """
+    if order.out.exists() and any(order.out.iterdir()):
+        raise UsageError(
+            f"{order.out}: exists, and nothing is overwritten; choose another --out or remove it"
+        )
+    watch = Stopwatch(advance)
+    art, config, _ = load_art(order.checkpoint)
+    watch.lap("checkpoint")
+    capture, sphere = seen_object(order)
+    images = network_images(
+        capture, sphere, size=config.data.input_px, background=config.data.background
+    )
+    watch.lap("images")
+    prediction = predict(art, config, images, parts=order.parts)
+    watch.lap("network")
+    surfaces = part_surfaces(prediction, sphere, resolution=order.resolution)
+    watch.lap("surfaces")
+    guess = object_guess(prediction.articulation, 0, surfaces, radius=sphere.radius_m)
+    provenance = {"source": "reconstruction", "checkpoint": file_hash(order.checkpoint)}
+    assembled = assemble(guess, order.wishes, provenance=provenance)
+    watch.lap("assembly")
+    report: list[Report] = []
+
+    def fill(folder: Path) -> None:
+        painter = Painter(assembled.object, assembled.color)
+        seen = reprojections(capture, sphere, assembled, painter, size=films.SIDE)
+        if order.films:
+            write_films(folder, assembled, painter, seen)
+        watch.lap("films")
+        write_json(
+            folder / PREDICTION,
+            record(
+                prediction,
+                sphere,
+                assembled,
+                seen,
+                states=capture.states,
+                checkpoint=told_checkpoint(order.checkpoint, config),
+            ),
+        )
+        ious.extend(own.iou for own in seen)
+        export(folder / BUNDLE, assembled, painter)
+        watch.lap("export")
+        report.append(validate_bundle(folder / BUNDLE))
+        write_json(folder / BUNDLE / "report.json", report[0].as_json())
+        watch.lap("validation")
+
+    ious: list[float] = []
+    fill_folder_atomically(order.out, fill)
+    return Outcome(report=report[0], assembled=assembled, seconds=watch.seconds, ious=tuple(ious))
+
+
+def seen_object(order: Order) -> tuple[Capture, Sphere]:
+    """The images and where the object is, after a look whether cameras and masks agree."""
+    rig = read_rig(order.cameras, order.images)
+    segmenter = found_segmenter(order.segmenter) if order.segmenter else None
+    capture = read_capture(order.images, rig, masks=order.masks, segmenter=segmenter)
+    hull: VisualHull = check_cameras(capture)
+    return capture, sphere_of(rig, hull)
+
+
+def part_surfaces(prediction: Prediction, sphere: Sphere, *, resolution: int) -> dict[int, Surface]:
+    """Slot to its colored surface in m; empty where the network has no planes, and without slots
+    whose field holds no surface."""
+    if prediction.planes_BP6CHW is None:
+        return {}
+    meshes = part_meshes(
+        prediction.field(),
+        prediction.articulation,
+        resolution=resolution,
+        radius=sphere.radius_m,
+    )
+    return {
+        mesh.slot: (mesh.vertices, mesh.faces, mesh.rgb.astype(float))
+        for mesh in meshes
+        if not mesh.from_box
+    }
+
+
+def told_checkpoint(path: Path, config: Config) -> dict[str, str]:
+    """Which network it was."""
+    return {"sha256": file_hash(path), "recipe": config.recipe, "size": config.size}
+
+
+def reprojections(
+    capture: Capture, sphere: Sphere, assembled: Assembled, painter: Painter, *, size: int
+) -> list[films.Reprojection]:
+    """Every input image beside the object in the predicted state."""
+    images = network_images(capture, sphere, size=size, background="white")
+    rgb = images.rgb_BTV3HW[0].permute(0, 1, 3, 4, 2).numpy()
+    alpha = images.alpha_BTVHW[0, ..., None].numpy()
+    found = []
+    for t in range(rgb.shape[0]):
+        state = assembled.states[t] if t < len(assembled.states) else {}
+        for v in range(rgb.shape[1]):
+            pose = in_object(capture.camera_from_world[t, v], sphere, assembled.shift)
+            matrix = images.intrinsics_BTV33[0, t, v].double().numpy()
+            found.append(
+                films.Reprojection(
+                    state=capture.states[t],
+                    view=v,
+                    seen=films.straight(rgb[t, v], alpha[t, v]),
+                    shown=painter.paint(state, matrix, pose, (size, size)),
+                )
+            )
+    return found
+
+
+def write_films(
+    folder: Path, assembled: Assembled, painter: Painter, seen: list[films.Reprojection]
+) -> None:
+    """Turntable, articulation, and inputs beside reprojections."""
+    write_bytes(folder / TURNTABLE, films.turntable(assembled.object, painter))
+    write_bytes(folder / ARTICULATION, films.articulation(assembled.object, painter))
+    write_bytes(folder / REPROJECTION, films.side_by_side(seen))
+
+
+def export(folder: Path, assembled: Assembled, painter: Painter) -> None:
+    """The bundle, by the same exporters as every asset; its picture is ours."""
+    folder.mkdir()
+    with tempfile.TemporaryDirectory() as scratch:
+        library = TextureLibrary(Path(scratch) / "textures")
+        library.keep(assembled.object.surfaces[0], assembled.images)
+        with BlenderWorker(Path(scratch) / "blender.log") as worker:
+            write_bundle(
+                assembled.object,
+                folder,
+                library=library,
+                worker=worker,
+                thumbnail=films.thumbnail(assembled.object, painter),
+            )
