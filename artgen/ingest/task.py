@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from artgen.core.errors import ArtgenError, IngestError
-from artgen.core.jsonio import fill_folder_atomically, plain, write_json
+from artgen.core.errors import ArtgenError
+from artgen.core.jsonio import fill_folder_atomically, write_json
 from artgen.export import write_bundle
 from artgen.ingest.build import Built, build
 from artgen.ingest.foreign import ForeignObject
@@ -64,9 +64,12 @@ class Outcome:
 
 def category_name(word: str) -> str:
     """A source's category as a name of ours: StorageFurniture is storage_furniture."""
-    apart = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", word)
-    name = re.sub(r"[^a-z0-9]+", "_", apart.lower()).strip("_")
-    return name or "unknown"
+    return slug(re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", word)) or "unknown"
+
+
+def slug(text: str) -> str:
+    """Lower-case ASCII letters, digits and single underscores: fit for file and link names."""
+    return re.sub(r"[^a-z0-9]+", "_", text.lower()).strip("_")
 
 
 def ingest(task: IngestTask, tools: Toolbox) -> Outcome:
@@ -151,19 +154,3 @@ def _move(staged: Path, home: Path) -> None:
     if home.exists():
         shutil.rmtree(home)
     staged.rename(home)
-
-
-def record_path(folder: RunFolder, asset_id: str) -> Path:
-    """Where the outcome of an object is kept, so that a run can resume."""
-    return folder.logs / "ingest" / f"{asset_id}.json"
-
-
-def write_record(folder: RunFolder, task: IngestTask, outcome: Outcome, settings: str) -> None:
-    """Keep an outcome; `settings` is a hash of all that it depends on but the source's files."""
-    entry = {"settings": settings, "path": str(task.path), "outcome": plain(outcome)}
-    write_json(record_path(folder, task.asset_id), entry)
-
-
-def unknown_kind(kind: str) -> IngestError:
-    """No reader of that kind."""
-    return IngestError(f"{kind!r} is no kind of source; known: {', '.join(READERS)}")
