@@ -1,0 +1,112 @@
+"""Which objects lie at paths: folders of PartNet-Mobility, URDF files, static meshes."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from artgen.core.errors import UsageError
+from artgen.ingest.task import Kind, slug
+
+MARKS = ("mobility_v2.json", "mobility.urdf", "meta.json", "result.json")
+"""A folder with one of these is an object's, or claims to be."""
+PREFIX = {"partnet": "pm", "urdf": "urdf", "static": "static"}
+STATIC = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """An object's place; `problem` says why it cannot be read at all."""
+
+    path: Path
+    problem: str | None = None
+
+
+def found_folders(paths: Sequence[Path]) -> list[Found]:
+    """Object folders at paths, or one level below them; what is none is told, not passed over.
+
+    Raises:
+        UsageError: there is no path.
+    """
+    if not paths:
+        raise UsageError("artgen ingest partnet needs a folder, for example ~/partnet-mobility")
+    return _once(entry for path in paths for entry in _folders(path))
+
+
+def _folders(path: Path) -> Iterator[Found]:
+    if not path.is_dir():
+        yield Found(path=path, problem=_no_folder(path))
+    elif _marked(path):
+        yield Found(path=path)
+    else:
+        inner = [p for p in sorted(path.iterdir()) if not p.name.startswith(".")]
+        for place in inner:
+            if place.is_dir() and place.is_symlink() and not _within(place, path):
+                yield Found(path=place, problem=f"a link that leaves {path}; name it on its own")
+            elif place.is_dir() or place.suffix.lower() in (".zip", ".tar", ".gz", ".7z"):
+                yield Found(path=place, problem=None if place.is_dir() else _no_folder(place))
+        if not inner:
+            yield Found(path=path, problem="the folder is empty")
+
+
+def _marked(path: Path) -> bool:
+    return any((path / name).exists() for name in MARKS)
+
+
+def _within(place: Path, root: Path) -> bool:
+    return place.resolve().is_relative_to(root.resolve())
+
+
+def _no_folder(path: Path) -> str:
+    if not path.exists():
+        return "does not exist"
+    return f"is a file ({path.suffix or 'no suffix'}), not a folder; unpack it first"
+
+
+def found_files(paths: Sequence[Path], suffixes: Sequence[str]) -> list[Found]:
+    """Files of some kinds at or below paths.
+
+    Raises:
+        UsageError: there is no path.
+    """
+    if not paths:
+        raise UsageError(f"name a file ({', '.join(suffixes)}) or a folder that holds some")
+    return _once(entry for path in paths for entry in _files(path, suffixes))
+
+
+def _files(path: Path, suffixes: Sequence[str]) -> Iterator[Found]:
+    if path.is_dir():
+        inner = [p for p in sorted(path.rglob("*")) if p.suffix.lower() in suffixes and p.is_file()]
+        for place in inner:
+            away = not _within(place, path)
+            yield Found(path=place, problem=f"a link that leaves {path}" if away else None)
+        if not inner:
+            yield Found(path=path, problem=f"holds no {', '.join(suffixes)}")
+    elif not path.exists():
+        yield Found(path=path, problem="does not exist")
+    elif path.suffix.lower() not in suffixes:
+        yield Found(path=path, problem=f"is no {', '.join(suffixes)}")
+    else:
+        yield Found(path=path)
+
+
+def _once(entries: Iterator[Found]) -> list[Found]:
+    """Each place once, in order."""
+    return list({entry.path.absolute(): entry for entry in entries}.values())
+
+
+def named(found: Sequence[Found], kind: Kind) -> list[tuple[str, Found]]:
+    """Objects with names of their own, made from the names of their folders or files; twins are
+    numbered in the order of the paths."""
+    taken: set[str] = set()
+    listed = []
+    for entry in found:
+        name = (
+            f"{PREFIX[kind]}_{slug(entry.path.stem if entry.path.is_file() else entry.path.name)}"
+        )
+        number, own = 1, name
+        while own in taken:
+            number += 1
+            own = f"{name}_{number}"
+        taken.add(own)
+        listed.append((own, entry))
+    return listed

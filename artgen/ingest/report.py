@@ -1,0 +1,64 @@
+"""The report of a run: one JSON with all that was done, and a table that people read."""
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+from artgen.core.jsonio import plain, write_bytes, write_json
+from artgen.ingest.task import Outcome
+from artgen.run_folder import RunFolder
+
+SCHEMA = "artgen-ingest/1"
+WIDE = 110
+"""Letters of a message in the table."""
+
+
+def write_report(folder: RunFolder, outcomes: Sequence[Outcome]) -> None:
+    """`ingest_report.json` and `ingest_report.txt` at the top of the run's folder."""
+    write_json(folder.root / "ingest_report.json", report(outcomes))
+    write_bytes(folder.root / "ingest_report.txt", table(outcomes).encode())
+
+
+def report(outcomes: Sequence[Outcome]) -> dict[str, Any]:
+    """Counts, and every object with what was mended, dropped and doubted."""
+    counts = Counter(outcome.status for outcome in outcomes)
+    confidence: Counter[str] = Counter(
+        joint["confidence"]
+        for outcome in outcomes
+        for joint in outcome.said.get("joints_read", {}).values()
+    )
+    return {
+        "schema": SCHEMA,
+        "objects": len(outcomes),
+        "counts": {word: counts[word] for word in ("valid", "flawed", "refused")},
+        "rest_confidence": dict(sorted(confidence.items())),
+        "for_art": sum(o.status != "refused" and not o.said.get("art") for o in outcomes),
+        "entries": [plain(outcome) for outcome in outcomes],
+    }
+
+
+def table(outcomes: Sequence[Outcome]) -> str:
+    """One line an object: verdict, name, category, parts and joints, and the first thing to know;
+    then the sums."""
+    lines = [f"{'verdict':<8} {'object':<28} {'category':<20} {'parts':>5} {'joints':>6}  note"]
+    for outcome in outcomes:
+        lines.append(
+            f"{outcome.status:<8} {outcome.asset_id:<28} {outcome.category:<20} "
+            f"{outcome.parts:>5} {outcome.joints:>6}  {note(outcome)}".rstrip()
+        )
+    counts = Counter(outcome.status for outcome in outcomes)
+    said = ", ".join(f"{counts[word]} {word}" for word in ("valid", "flawed", "refused"))
+    lines.append(f"{len(outcomes)} objects: {said}")
+    return "\n".join(lines) + "\n"
+
+
+def note(outcome: Outcome) -> str:
+    """What the table says of an object: why it is refused or flawed, else what was done to it."""
+    if outcome.message:
+        return _short(outcome.message)
+    counts = {key: len(outcome.said.get(key, ())) for key in ("mended", "dropped", "doubts")}
+    return ", ".join(f"{count} {key}" for key, count in counts.items() if count)
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= WIDE else f"{text[: WIDE - 3]}..."
