@@ -204,12 +204,13 @@ def announce(found: Summary, out: Path) -> None:
     """The headlines, and where everything lies."""
     console = Console()
     title = f"{found.objects} objects, {len(found.failures)} without a prediction"
-    table = Table("metric", "mean", "95 %", "median", "unit", title=title)
+    table = Table(title=title)
+    for heading in ("metric", "mean", "95 %", "unit"):
+        table.add_column(heading, no_wrap=heading != "unit")
     for name in HEADLINES:
         own = found.overall[name]
         if own.mean is not None:
-            cells = (shown(own.mean), interval(own), shown(own.median), METRICS[name].unit)
-            table.add_row(name, *cells)
+            table.add_row(name, shown(own.mean), interval(own), METRICS[name].unit)
     console.print(table)
     console.print(f"page: {out / 'report.html'}", highlight=False)
     console.print(f"data: {out / 'evaluation.json'}", highlight=False)

@@ -1,0 +1,87 @@
+"""`artgen evaluate` from folders to a report, and again."""
+
+import json
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from artgen.core.errors import UsageError
+from model.evaluation.cli import evaluate
+from model.evaluation.metrics import METRICS
+from tests.unit.model.evaluation.adapters.outputs import write_singapo, write_urdf
+
+OPTIONS = ["--points", "200", "--part-points", "200", "--mask-pixels", "16", "--workers", "1"]
+
+
+@pytest.fixture
+def folders(tmp_path: Path) -> Path:
+    """SINGAPO's trees as truth; URDFs as predictions, of which one is missing and one broken."""
+    for name in ("a", "b", "c"):
+        write_singapo(tmp_path / "truth" / name)
+    write_urdf(tmp_path / "guess" / "a")
+    broken = tmp_path / "guess" / "b" / "b.urdf"
+    broken.parent.mkdir(parents=True)
+    broken.write_text("<robot", encoding="utf-8")
+    for side, shade in (("truth", 255), ("guess", 128)):
+        place = tmp_path / side / "a" / "images"
+        place.mkdir()
+        Image.fromarray(np.full((16, 16, 3), shade, np.uint8)).save(place / "0.png")
+    return tmp_path
+
+
+def run(folder: Path, *more: str) -> dict[str, object]:
+    out = folder / "out"
+    arguments = [str(folder / "guess"), "--truth", str(folder / "truth"), "--out", str(out)]
+    assert evaluate([*arguments, *OPTIONS, *more]) == 0
+    found: dict[str, object] = json.loads((out / "evaluation.json").read_text(encoding="utf-8"))
+    return found
+
+
+def test_one_command_makes_a_json_and_a_page(folders: Path) -> None:
+    found = run(folders)
+    summary = found["summary"]
+    assert isinstance(summary, dict)
+    assert set(summary["overall"]) == set(METRICS)
+    assert set(summary["failures"]) == {"b", "c"}
+    assert summary["overall"]["images.psnr"]["mean"] == pytest.approx(6.06, abs=0.01)
+    assert summary["overall"]["images.lpips"]["mean"] is None
+    page = (folders / "out" / "report.html").read_text(encoding="utf-8")
+    assert "http" not in re.sub(r"http-equiv", "", page)  # Nothing is fetched.
+    assert page.count("data:image/png;base64,") == 1
+    assert "SINGAPO (paper)" in page
+    assert "no prediction of that name" in page
+
+    before = (folders / "out" / "evaluation.json").read_bytes()
+    stamp = (folders / "out" / "objects" / "a.json").stat().st_mtime_ns
+    run(folders)
+    assert (folders / "out" / "evaluation.json").read_bytes() == before
+    assert (folders / "out" / "objects" / "a.json").stat().st_mtime_ns == stamp
+
+    with pytest.raises(UsageError, match="choose another --out"):
+        run(folders, "--align", "uniform")
+    shutil.copytree(folders / "guess" / "a", folders / "guess" / "c")
+    found = run(folders)
+    assert isinstance(found["summary"], dict)
+    assert set(found["summary"]["failures"]) == {"b"}
+
+
+def test_a_folder_of_something_else_is_not_touched(folders: Path) -> None:
+    (folders / "mine").mkdir()
+    (folders / "mine" / "notes.txt").write_text("mine", encoding="utf-8")
+    with pytest.raises(UsageError, match=r"holds notes\.txt already"):
+        run(folders, "--out", str(folders / "mine"))
+    with pytest.raises(UsageError, match="is a file"):
+        run(folders, "--out", str(folders / "mine" / "notes.txt"))
+
+
+def test_names_that_do_not_meet_are_told(folders: Path) -> None:
+    (folders / "guess" / "a").rename(folders / "guess" / "x")
+    shutil.rmtree(folders / "guess" / "b")
+    with pytest.raises(UsageError, match="name predictions as the true objects are named"):
+        run(folders)
+    with pytest.raises(UsageError, match="expected at least 100"):
+        run(folders, "--points", "3")

@@ -1,0 +1,97 @@
+"""Records: which metrics an object brings, and what failure costs."""
+
+import json
+
+import pytest
+
+from artgen.core.jsonio import plain
+from model.evaluation.images import image_scores
+from model.evaluation.metrics import METRICS
+from model.evaluation.reshape import placed, taken
+from model.evaluation.score import Protocol, aligned, failed, in_radii, score
+from model.evaluation.summary import summary
+from tests.unit.model.evaluation.layouts import cabinet, with_box_meshes
+from tests.unit.model.evaluation.test_images import ALL, GRAY
+
+QUICK = Protocol(points=500, part_points=500, mask_pixels=24)
+ASKED_ELSEWHERE = ("gates.", "images.lpips")
+
+
+def test_the_truth_scores_best_in_everything() -> None:
+    truth = with_box_meshes(cabinet())
+    images = [image_scores(GRAY, GRAY, ALL, ALL)]
+    record = score(truth, truth, QUICK, images=images)
+    assert {
+        n for n in METRICS if n not in record.metrics if not n.startswith(ASKED_ELSEWHERE)
+    } == set()
+    assert set(record.metrics) <= set(METRICS)
+    for name, values in record.metrics.items():
+        if (
+            "giou" in name
+            or "dcdist" in name
+            or name.endswith(("_deg", "line", "lever", "state_share"))
+        ):
+            best = 1.0 if name.startswith("particulate") else 0.0
+            # Counting of turned boxes loses 3 of 10,000; booleans 1e-9.
+            assert values == pytest.approx([best] * len(values), abs=3e-4), name
+    json.dumps(plain(record), allow_nan=False)
+
+
+def test_scores_do_not_depend_on_the_unit() -> None:
+    truth = with_box_meshes(cabinet())
+    guess = with_box_meshes(cabinet(boxes=truth.boxes * (1.0, 1.0, 0.9)))
+    one = score(guess, truth, QUICK)
+    other = score(placed(guess, scale=100.0), placed(truth, scale=100.0), QUICK)
+    for name in one.metrics:
+        if not name.startswith("paris"):
+            # Sums of some hundred roundings; none of the samples lies at a border of a triangle.
+            assert other.metrics[name] == pytest.approx(one.metrics[name], rel=1e-6, abs=1e-6), name
+
+
+def test_alignment_brings_place_and_scale() -> None:
+    truth = cabinet()
+    wrong = placed(truth, scale=3.0, shift=(1.0, 2.0, 3.0))
+    assert aligned(wrong, truth, "uniform").boxes == pytest.approx(truth.boxes, abs=1e-14)
+    centered = aligned(wrong, truth, "center")
+    assert centered.bounds.mean(axis=0) == pytest.approx(truth.bounds.mean(axis=0), abs=1e-14)
+    assert centered.radius == pytest.approx(3.0 * truth.radius, rel=1e-14)
+    assert aligned(wrong, truth, "none") is wrong
+
+
+def test_radii_are_half_diagonals() -> None:
+    _, true = in_radii(cabinet(), cabinet())
+    assert true.radius == pytest.approx(1.0, abs=1e-15)
+    assert true.bounds.mean(axis=0) == pytest.approx([0.0, 0.0, 0.0], abs=1e-15)
+
+
+def test_failure_is_the_worst_and_nothing_is_better() -> None:
+    truth = cabinet()
+    record = failed(truth, "it crashed")
+    poor = score(placed(taken(truth, [0]), shift=(50.0, 0.0, 0.0)), truth, QUICK)
+    for name, values in record.metrics.items():
+        sign = 1.0 if METRICS[name].better == "more" else -1.0
+        for value in poor.metrics.get(name, ()):
+            assert sign * value >= sign * values[0], name
+    assert len(record.metrics["joints.nearest.type_right"]) == 2
+    assert "surfaces.rest.chamfer_l1" not in record.metrics
+
+
+def test_a_summary_counts_failures_and_groups() -> None:
+    truth = with_box_meshes(cabinet())
+    records = [score(truth, truth, QUICK), failed(cabinet("other", category="oven"), "it crashed")]
+    found = summary(records)
+    assert found.failures == {"other": "it crashed"}
+    assert found.overall["singapo.honest.order.rs_dgiou"].mean == 1.0
+    assert found.overall["surfaces.rest.chamfer_l1"].objects == 1
+    assert found.overall["images.lpips"].mean is None
+    assert set(found.by_category) == {"cabinet", "oven"}
+    assert set(found.by_parts) == {"03"}
+    assert found.gaps["singapo.honest.rs_dgiou"] == 0.0
+
+
+def test_confused_slots_make_a_gap() -> None:
+    truth = cabinet()
+    swapped = taken(truth, [0, 2, 1])
+    found = summary([score(swapped, truth, QUICK)])
+    assert found.gaps["singapo.honest.rs_dgiou"] > 0.5
+    assert found.gaps["joints.type_right"] == -1.0
