@@ -48,6 +48,11 @@ class Train:
     """How many objects to make, dealt out to the categories in turn."""
     library: Path | None = None
     """Read objects from this file instead of making them; `artgen train-data` writes one."""
+    shards: tuple[Path, ...] = ()
+    """Folders of rendered shards to learn from, mixed with --library if that is given."""
+    scenes: int | None = None
+    """Show every object in this many scenes, kept in memory, instead of a new one each time: half
+    the work on a CPU, less variety."""
     start: Path | None = None
     """Begin with the weights of this file (art.safetensors of another run)."""
     set: tuple[str, ...] = ()
@@ -76,7 +81,8 @@ def train(argv: Sequence[str]) -> int:
 
 def _train(command: Train, config: Config) -> None:
     try:
-        from model.session import Material, run_session  # Torch takes seconds to import.
+        from model.material import Material
+        from model.session import run_session  # Torch takes seconds to import.
     except ModuleNotFoundError as error:
         raise UsageError(
             f"artgen train needs {error.name}, which is not installed: pip install 'artgen[model]'"
@@ -85,6 +91,8 @@ def _train(command: Train, config: Config) -> None:
         categories=command.categories,
         objects=command.objects,
         library=command.library,
+        shards=command.shards,
+        scenes=command.scenes,
     )
     run_session(
         config,

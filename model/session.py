@@ -2,12 +2,9 @@
 
 import dataclasses
 import json
-import os
 import platform
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,58 +14,29 @@ from numpy.typing import NDArray
 
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import plain, write_json
-from artgen.dataset.split import Split
 from artgen.progress import Show, progress
-from artgen.rules import rule_names
 from artgen.run_folder import locked
 from model.art import Art
 from model.art_file import ModelCard, Stored, load_art, load_weights, save_art
 from model.batch import Batch
 from model.config import Config
-from model.data.library import read_library
+from model.data.items import Source
 from model.data.loader import batches
-from model.data.make import Request, dealt, make_library
-from model.data.soup import TOLERANCE
-from model.data.soup_source import SoupSource
 from model.distributed import Plan, Team, joined, wait_for_all, whole
+from model.material import Material, make_missing, opened
 from model.objective import Objective
 from model.picture import picture_of
 from model.run_state import Run, begun, differences, resume, trained_state
 from model.schedule import Moment
 from model.train import Draw, Supply, train
 
-LIBRARY = "library.npz"
 RESULT = "art.safetensors"
 SHIPPED_BYTES = 29_000_000
 """Weights that need more are rounded to float16: a shipped file stays below 30 MB."""
-WORKERS = os.cpu_count() or 1
 LIMITS = (
     "Learned from procedural objects shown by a ray caster; not tried on photographs.",
     "Expects the object alone, from known cameras, in two or more states.",
 )
-
-
-@dataclass(frozen=True, kw_only=True)
-class Material:
-    """What is learned from.
-
-    Attributes:
-        categories: of objects made from seeds; all where none is named.
-        objects: how many are made, dealt out to the categories in turn.
-        library: file of objects, instead of making them.
-        split: share of the objects that is learned from; None for all.
-    """
-
-    categories: tuple[str, ...] = ()
-    objects: int = 64
-    library: Path | None = None
-    split: Split | None = "train"
-
-    def request(self, seed: int) -> Request:
-        """Which objects to make."""
-        names = self.categories or tuple(rule_names())
-        counts = {name: count for name, count in dealt(names, self.objects).items() if count}
-        return Request(counts=counts, seed=seed, tolerance=TOLERANCE)
 
 
 def run_session(
@@ -98,7 +66,7 @@ def run_session(
         with locked(folder) if team.leads else nullcontext():
             settings = {"config": plain(config), "material": plain(material)}
             _claim(folder, settings, team)
-            source = _opened(material, folder, config, team, show=show)
+            source = _opened(material, folder, config, team, show)
             art = _network(config, start)
             run = _begun(art, config, team, settings)
             resume(run, folder)
@@ -124,14 +92,13 @@ def _claim(folder: Path, settings: Mapping[str, Any], team: Team) -> None:
 
 
 def _opened(
-    material: Material, folder: Path, config: Config, team: Team, *, show: Show
-) -> SoupSource:
-    """The objects to learn from; those to be made are made once and kept in the folder."""
-    path = material.library or folder / LIBRARY
-    if material.library is None and team.leads and not path.exists():
-        make_library(path, material.request(config.data.seed), workers=WORKERS, show=show)
+    material: Material, folder: Path, config: Config, team: Team, show: Show
+) -> Source[Any]:
+    """What to learn from; the rank that leads makes what is to be made."""
+    if team.leads:
+        make_missing(material, folder, config.data, show=show)
     wait_for_all(team)
-    return SoupSource(read_library(path), split=material.split, slots=config.data.slots)
+    return opened(material, folder, config.data)
 
 
 def _network(config: Config, start: Path | None) -> Art:
@@ -153,7 +120,7 @@ def _begun(art: Art, config: Config, team: Team, settings: Mapping[str, Any]) ->
     return begun(objective, config.train, items=config.data.batch, team=team, settings=settings)
 
 
-def _supply(source: SoupSource, config: Config, team: Team) -> Supply:
+def _supply(source: Source[Any], config: Config, team: Team) -> Supply:
     def supply(moment: Moment, cursor: int) -> Iterator[Batch]:
         data = dataclasses.replace(config.data, target_px=moment.target_px)
         place = {"rank": team.rank, "world": team.world}
@@ -173,17 +140,17 @@ def _draw(art: Art, supply: Supply, team: Team) -> Draw | None:
     return draw
 
 
-def _card(source: SoupSource, config: Config, material: Material, run: Run) -> ModelCard:
-    categories = Counter(source.library.categories[k] for k in source.positions)
+def _card(source: Source[Any], config: Config, material: Material, run: Run) -> ModelCard:
     return ModelCard(
         data={
-            "categories": dict(sorted(categories.items())),
-            "objects": len(source),
-            "left_out": len(source.left_out),
-            "library": source.library.made,
+            "made": material.request(config.data.seed).made,
+            "library": material.library and material.library.name,
+            "shards": [path.name for path in material.shards],
             "split": material.split,
-            "seed": config.data.seed,
-            "items": run.cursor,
+            "scenes": material.scenes,
+            "items": len(source),
+            "left_out": len(source.left_out),
+            "seen": run.cursor,
         },
         steps=run.step,
         hours=run.seconds / 3600.0,

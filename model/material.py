@@ -1,0 +1,79 @@
+"""What a run learns from: objects made from seeds, libraries of them, rendered shards."""
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from artgen.dataset.split import Split
+from artgen.progress import Show
+from artgen.rules import rule_names
+from model.data.config import DataConfig
+from model.data.items import Source
+from model.data.kept import Kept
+from model.data.library import read_library
+from model.data.make import Request, dealt, make_library
+from model.data.mixed import Mixed
+from model.data.shards import ShardSource
+from model.data.soup import TOLERANCE
+from model.data.soup_source import SoupSource
+
+WORKERS = os.cpu_count() or 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Material:
+    """What is learned from.
+
+    Attributes:
+        categories: of objects made from seeds; all where none is named.
+        objects: how many are made, dealt out to the categories in turn.
+        library: file of objects, instead of making them.
+        shards: folders of rendered shards, mixed in by their number of samples.
+        split: share of the objects that is learned from; None for all.
+        scenes: in which every object is seen, again in every epoch; None draws a new one each time.
+    """
+
+    categories: tuple[str, ...] = ()
+    objects: int = 64
+    library: Path | None = None
+    shards: tuple[Path, ...] = ()
+    split: Split | None = "train"
+    scenes: int | None = None
+
+    def request(self, seed: int) -> Request:
+        """Which objects to make."""
+        names = self.categories or tuple(rule_names())
+        counts = {name: count for name, count in dealt(names, self.objects).items() if count}
+        return Request(counts=counts, seed=seed, tolerance=TOLERANCE)
+
+
+def make_missing(material: Material, folder: Path, data: DataConfig, *, show: Show) -> None:
+    """Make the objects that are to be made from seeds, unless the folder has them."""
+    path = _library(material, folder)
+    if path is not None and material.library is None and not path.exists():
+        make_library(path, material.request(data.seed), workers=WORKERS, show=show)
+
+
+def opened(material: Material, folder: Path, data: DataConfig) -> Source[Any]:
+    """The items of all that the material names.
+
+    Raises:
+        ModelError: a library or shard is missing or damaged, or nothing is left of the split.
+        ShardError: a shard is damaged.
+    """
+    split, slots = material.split, data.slots
+    sources: list[Source[Any]] = [
+        ShardSource(path, split=split, slots=slots) for path in material.shards
+    ]
+    if path := _library(material, folder):
+        sources.append(SoupSource(read_library(path), split=split, slots=slots))
+    one = sources[0] if len(sources) == 1 else Mixed([(one, len(one)) for one in sources])
+    return one if material.scenes is None else Kept(one, material.scenes)
+
+
+def _library(material: Material, folder: Path) -> Path | None:
+    """Given, to be made, or None where shards alone are learned from."""
+    if material.library is not None:
+        return material.library
+    return folder / "library.npz" if material.categories or not material.shards else None
