@@ -12,7 +12,7 @@ from rich.console import Console
 
 from artgen.assembly.licence import KNOWN
 from artgen.core.errors import UsageError, did_you_mean
-from artgen.ingest.found import Found, found_files, found_folders
+from artgen.ingest.found import Found, found_folders
 from artgen.ingest.options import GivenRest, Options
 from artgen.ingest.report import table, write_report
 from artgen.ingest.run import ingest_all

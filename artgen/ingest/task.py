@@ -18,7 +18,6 @@ from artgen.ingest.foreign import ForeignObject
 from artgen.ingest.options import Options
 from artgen.ingest.partnet.folder import read_partnet
 from artgen.pipeline import Toolbox
-from artgen.run_folder import RunFolder
 from artgen.validate import Report, validate_bundle
 
 Kind = Literal["partnet", "urdf", "static"]

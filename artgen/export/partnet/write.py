@@ -51,6 +51,7 @@ def write_partnet(
     images: Mapping[str, bytes],
     *,
     doubled: bool = False,
+    licence: object = None,
 ) -> None:
     """Fill `folder`, which exists.
 
@@ -60,6 +61,7 @@ def write_partnet(
     Args:
         images: surface name to the content of a PNG file: its color over one tile.
         doubled: write every face a second time, turned around.
+        licence: terms of the object, as `artgen.json` states them.
     """
     unit, mesh_from_object = normalization(obj)
     tree = part_tree(obj)
@@ -71,7 +73,7 @@ def write_partnet(
     _json(folder / "meta.json", _meta(obj))
     _json(folder / "bounding_box.json", _box(obj, mesh_from_object))
     _text(folder / "semantics.txt", semantics(obj, tree))
-    _json(folder / NOTE, _note(obj, unit, mesh_from_object))
+    _json(folder / NOTE, _note(obj, unit, mesh_from_object, licence))
 
 
 def normalization(obj: ArticulatedObject) -> tuple[float, Floats]:
@@ -211,7 +213,9 @@ def _box(obj: ArticulatedObject, mesh_from_object: Floats) -> dict[str, list[flo
     return {"min": moved.min(axis=0).tolist(), "max": moved.max(axis=0).tolist()}
 
 
-def _note(obj: ArticulatedObject, unit: float, mesh_from_object: Floats) -> dict[str, Any]:
+def _note(
+    obj: ArticulatedObject, unit: float, mesh_from_object: Floats, licence: object
+) -> dict[str, Any]:
     """Scale, origin and what was left out."""
     lost = {
         "springs": [joint.name for joint in obj.joints if joint.spring is not None],
@@ -220,13 +224,14 @@ def _note(obj: ArticulatedObject, unit: float, mesh_from_object: Floats) -> dict
         "preconditions": [rule.joint for rule in obj.preconditions],
         "grips": [grip.name for part in obj.parts for grip in part.grips],
     }
-    kept = {key: obj.provenance[key] for key in ("source", "licence") if key in obj.provenance}
+    kept = {"source": obj.provenance["source"]} if "source" in obj.provenance else {}
     return {
         "schema": NOTE_SCHEMA,
         "asset_id": obj.asset_id,
         "meters_per_unit": unit,
         "mesh_from_object": mesh_from_object,
         "left_out": {key: names for key, names in lost.items() if names},
+        "licence": licence,
         **kept,
     }
 

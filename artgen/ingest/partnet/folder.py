@@ -34,6 +34,8 @@ from artgen.validate.places import inside
 from artgen.validate.xmlfile import read_xml
 
 DATASET = "partnet-mobility"
+OWN_EXPORT = "artgen-export"
+"""The data set of folders that `artgen export partnet` wrote."""
 OBJECT_FROM_MESH = Y_UP_FROM_Z_UP[:3, :3].T
 """Mesh frame (y up, front +z) to ours (z up, front -y)."""
 REQUIRED = ("meta.json", "mobility_v2.json", "result.json", OBJS)
@@ -70,7 +72,7 @@ def read_partnet(root: Path) -> ForeignObject:
     note = _note(root)
     meters = note.get("meters_per_unit")
     return ForeignObject(
-        dataset=DATASET,
+        dataset=OWN_EXPORT if note else DATASET,
         id=meta.anno_id or root.name,
         category=meta.category or named,
         digest=_digest(root),

@@ -1,0 +1,102 @@
+"""`artgen export`: bundles in layouts that others read."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+from rich.console import Console
+
+from artgen.assembly.finished import finished_object
+from artgen.assembly.licence import licence_of
+from artgen.core.errors import ArtgenError, UsageError
+from artgen.core.jsonio import fill_folder_atomically
+from artgen.export.layout import GLB, MANIFEST
+from artgen.export.partnet.write import write_partnet
+from artgen.ingest.cli import dispatched
+from artgen.ingest.glb_images import color_images
+from artgen.progress import progress
+
+USAGE = """\
+usage: artgen export partnet BUNDLE... --out DIR   folders of PartNet-Mobility's layout
+
+A BUNDLE is a folder that `artgen generate`, `ingest` or `assemble` wrote, or a folder of many.
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExportPartnet:
+    """Write bundles as PartNet-Mobility folders: JSON, URDF, OBJ fragments, MTL and images.
+
+    Each object is scaled to radius 1; artgen.json beside the others says by how much, under which
+    licence, and what the format cannot hold. `artgen ingest partnet` reads it back.
+    """
+
+    paths: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
+    """Bundles, or folders that hold some."""
+    out: Path = Path("out/partnet")
+    """Receives one folder an object; none that is there is written over."""
+    doubled: bool = False
+    """Write every face twice, once turned around, as most of the data set does."""
+
+
+def export(argv: Sequence[str]) -> int:
+    """Bundles to the layout of PartNet-Mobility."""
+    kinds: Mapping[str, Callable[[Sequence[str]], int]] = {"partnet": partnet}
+    return dispatched("export", kinds, argv, USAGE)
+
+
+def partnet(argv: Sequence[str]) -> int:
+    """Bundles to PartNet-Mobility folders: 0 all written, 1 some could not be."""
+    command = tyro.cli(ExportPartnet, args=list(argv), prog="artgen export partnet")
+    bundles = found_bundles(command.paths)
+    failed = []
+    with progress("exports", len(bundles)) as advance:
+        for bundle in bundles:
+            try:
+                written = export_bundle(bundle, command.out, doubled=command.doubled)
+                advance(f"{bundle.name} {'written' if written else 'kept'}")
+            except ArtgenError as error:
+                failed.append(f"{bundle}: {error}")
+                advance(f"{bundle.name} failed")
+    console = Console(highlight=False, soft_wrap=True)
+    for line in failed:
+        console.print(f"failed  {line}", markup=False)
+    console.print(f"{len(bundles) - len(failed)} of {len(bundles)} objects in {command.out}")
+    return int(bool(failed))
+
+
+def found_bundles(paths: Sequence[Path]) -> list[Path]:
+    """Bundles at or below paths, in order and once each.
+
+    Raises:
+        UsageError: a path holds none.
+    """
+    if not paths:
+        raise UsageError("artgen export partnet needs a bundle, for example out/assets")
+    found: dict[Path, None] = {}
+    for path in paths:
+        own = [entry.parent for entry in sorted(path.rglob(MANIFEST))]
+        if not own:
+            raise UsageError(f"{path} holds no {MANIFEST}; name a bundle or a folder of some")
+        found |= dict.fromkeys(own)
+    return list(found)
+
+
+def export_bundle(bundle: Path, out: Path, *, doubled: bool) -> bool:
+    """Write one bundle's folder below `out`, whole or not at all; False where it is there already.
+
+    Raises:
+        ArtgenError: the bundle is damaged.
+    """
+    obj = finished_object(bundle)
+    home = out / obj.asset_id
+    if home.exists():
+        return False
+    images = color_images(bundle / GLB)
+    terms = licence_of(obj.provenance)
+    fill_folder_atomically(
+        home, lambda partial: write_partnet(obj, partial, images, doubled=doubled, licence=terms)
+    )
+    return True
