@@ -119,8 +119,8 @@ class Trunk:
         mlp_ratio: hidden width of a block's network over `width`. Not stated.
         direction: who asks in cross-attention: the image tokens (the paper), the part tokens, or
             each the other.
-        scope: `joint` lets self-attention see all tokens; `alternate` lets every second one see
-            within a part, and within an image, alone.
+        scope: `joint` lets self-attention see all tokens; `alternate` lets every second one, but
+            never the last, see within a part, and within an image, alone.
         shared_mlp: whether both streams share the network after self-attention. Not stated.
         qk_norm: whether queries and keys are normalized. Not stated.
         recompute: whether blocks are computed again in the backward pass, to save memory.
@@ -155,12 +155,9 @@ class Trunk:
         tiled = (self.pattern * self.blocks)[: self.blocks]
         if self.scope == "joint":
             return tiled
-        letters, selves = list(tiled), 0
-        for index, letter in enumerate(letters):
-            if letter == "S":
-                letters[index] = "SW"[selves % 2]
-                selves += 1
-        return "".join(letters)
+        first, *selves = tiled.split("S")
+        joint_last = ["SW"[(len(selves) - 1 - k) % 2] for k in range(len(selves))]
+        return first + "".join(s + x for s, x in zip(joint_last, selves, strict=True))
 
 
 @dataclass(frozen=True, kw_only=True)
