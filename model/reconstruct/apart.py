@@ -125,7 +125,11 @@ def _cleared(scene: Scene, cutter: Cutter, sweep: Sweep, pair: tuple[str, str]) 
     shorter = scene.ended(sweep, (deep if len(deep) else met).tolist(), other)
     stuck = shorter.span(sweep.joint) < LEAST_LEFT * scene.span(sweep.joint)
     blocked = shorter.joints == scene.joints
-    return cut if (stuck or blocked) and share <= MOST_GIVEN else shorter
+    if (stuck or blocked) and share <= MOST_GIVEN:
+        return cut
+    for rest in () if blocked else sweeps_of(shorter, sweep.joint):
+        shorter = _cleared(shorter, cutter, rest, pair)
+    return shorter
 
 
 def _around(course: Floats, met: NDArray[np.intp]) -> Floats:

@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.resources import files
 from pathlib import Path
 from typing import Annotated
 
 import tyro
 from rich.console import Console
 
-from artgen.core.errors import UsageError
+from artgen.core.errors import ModelError, UsageError
 from artgen.progress import progress
 from artgen.system_libraries import check_libraries
 from model.reconstruct import run
@@ -123,21 +124,22 @@ def cameras_beside(images: Path) -> Path:
     raise UsageError(f"{images}: holds none of {', '.join(NAMES)}; say --cameras FILE")
 
 
-SHIPPED = Path(__file__).parents[1] / "weights" / "art.safetensors"
+SHIPPED = "art_nano.safetensors"
 
 
 def shipped_checkpoint() -> Path:
     """The network that comes with the package.
 
     Raises:
-        UsageError: this installation has none.
+        ModelError: this installation has none.
     """
-    if not SHIPPED.is_file():
-        raise UsageError(
-            f"no checkpoint ships with this installation ({SHIPPED}); train one by `artgen train` "
-            "and say --checkpoint FILE"
+    path = Path(str(files("model"))) / "checkpoints" / SHIPPED
+    if not path.is_file():
+        raise ModelError(
+            f"{path}: no checkpoint ships with this installation; train one by `artgen train` and "
+            "say --checkpoint FILE"
         )
-    return SHIPPED
+    return path
 
 
 def announce(order: run.Order, outcome: run.Outcome) -> None:

@@ -6,12 +6,13 @@ cells that lie inside are joined to large boxes (a greedy cover).
 """
 
 from collections.abc import Iterator
-from itertools import pairwise
+from itertools import pairwise, permutations
 
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_cdt
 
 from artgen.core.mesh import Floats, TriMesh
 from artgen.geometry.normals import face_vectors
@@ -20,8 +21,18 @@ from artgen.geometry.solid import Solid, slab
 CONVEX = 0.995
 """Share of its hull that a solid fills to be stood for by the hull."""
 MOST_PIECES = 40
-STEPS = 14
-"""Cells along the longest side, between the planes of faces."""
+STEPS = (14, 28, 56)
+"""Cells along the longest side, between the planes of faces; finer where coarse hold little."""
+ENOUGH = 0.5
+"""Share of the part's volume that boxes hold to be content with."""
+MOST_SLANTED = 10
+"""Boxes that are not along the axes; a bundle holds each as a file."""
+CANDIDATES = 200
+"""Largest triangles whose normals are tried as axes of a frame."""
+ALIKE = 0.97
+"""Cosine between normals that count as one direction."""
+SEEDS = 6
+"""Cells from which boxes are grown, of which the largest is taken."""
 FACE = 0.02
 """Share of the surface that looks one way along an axis and makes a plane of its own."""
 INSET = 2e-5
@@ -37,23 +48,64 @@ Cells = NDArray[np.bool_]
 
 
 def contact_pieces(solid: Solid) -> tuple[Solid, ...]:
-    """Convex solids inside of `solid`, largest first; its hull where that is all but the same."""
+    """Convex solids inside of `solid`, largest first; its hull where that is all but the same, or
+    where no box fits in."""
     hull = solid.hull()
     if solid.volume >= CONVEX * hull.volume:
         return (hull,)
+    best = boxes_inside(solid)
+    if _volume(best) < ENOUGH * solid.volume:
+        turn = np.eye(4)
+        turn[:3, :3] = face_frame(solid.trimesh())
+        slanted = boxes_inside(solid.transformed(turn))[:MOST_SLANTED]
+        if _volume(slanted) > _volume(best):
+            best = tuple(piece.transformed(turn.T) for piece in slanted)
+    return best or (hull,)
+
+
+def _volume(pieces: tuple[Solid, ...]) -> float:
+    return sum(piece.volume for piece in pieces)
+
+
+def boxes_inside(solid: Solid) -> tuple[Solid, ...]:
+    """Disjoint boxes along the axes, on the coarsest grid whose boxes hold enough."""
     mesh = solid.trimesh()
-    lines = [grid_lines(mesh, axis) for axis in range(3)]
-    boxes = list(cover(cells_inside(mesh, lines), lines, least=LEAST * solid.volume))
-    return tuple(boxes) or (hull,)
+    best: tuple[Solid, ...] = ()
+    for steps in STEPS:
+        lines = [grid_lines(mesh, axis, steps) for axis in range(3)]
+        found = tuple(cover(cells_inside(mesh, lines), lines, least=LEAST * solid.volume))
+        if _volume(found) > _volume(best):
+            best = found
+        if _volume(best) >= ENOUGH * solid.volume:
+            break
+    return best
 
 
-def grid_lines(mesh: TriMesh, axis: int) -> Floats:
+def face_frame(mesh: TriMesh) -> Floats:
+    """(3, 3) rotation that lays most of the surface across the axes: its rows are the direction
+    that most area looks along, and that which most looks along of those across it."""
+    vectors = face_vectors(mesh)
+    area = np.linalg.norm(vectors, axis=1)
+    large = np.argsort(area, kind="stable")[::-1][:CANDIDATES]
+    normals = vectors / np.where(area > 0.0, area, 1.0)[:, None]
+    candidates = normals[large]
+    along = np.abs(candidates @ normals.T) > ALIKE
+    first = candidates[int(np.argmax(along @ area))]
+    across = np.abs(candidates @ first) < 1.0 - ALIKE
+    rivals = candidates[across] if across.any() else np.eye(3)[[int(np.argmin(np.abs(first)))]]
+    second = rivals[int(np.argmax((np.abs(rivals @ normals.T) > ALIKE) @ area))]
+    second = second - (second @ first) * first
+    second /= np.linalg.norm(second)
+    return np.stack([first, second, np.cross(first, second)])
+
+
+def grid_lines(mesh: TriMesh, axis: int, steps: int) -> Floats:
     """Coordinates along one axis at which cells end: inner planes of large faces, bounds, steps."""
     vectors = face_vectors(mesh)
     area = np.linalg.norm(vectors, axis=1)
     lower, upper = mesh.bounds[:, axis]
     longest = float((mesh.bounds[1] - mesh.bounds[0]).max())
-    step = longest / STEPS
+    step = longest / steps
     planes = [lower, upper]
     for sign in (1.0, -1.0):
         facing = sign * vectors[:, axis] > 0.95 * area
@@ -150,45 +202,40 @@ def cover(cells: Cells, lines: list[Floats], *, least: float) -> Iterator[Solid]
         yield slab((low + INSET).tolist(), (high - INSET).tolist())
 
 
-Span = tuple[tuple[int, int], tuple[int, int], tuple[int, int]]
+Span = list[list[int]]
+ORDERS = list(permutations(range(3)))
 
 
 def _largest(free: Cells, lines: list[Floats]) -> Span | None:
-    """The largest box of free cells: for each range of z layers, the largest rectangle."""
+    """The largest box of free cells that grows from one of the cells deepest inside: along one axis
+    as far as it goes, then along another, then along the last, in all orders."""
+    if not free.any():
+        return None
+    depth = distance_transform_cdt(np.pad(free, 1), metric="chessboard")[1:-1, 1:-1, 1:-1]
+    widths = [np.diff(own) for own in lines]
+    room = depth * np.einsum("i,j,k->ijk", *widths)
+    seeds = np.argsort(room.ravel(), kind="stable")[::-1][:SEEDS]
     best: tuple[float, Span | None] = (0.0, None)
-    steps = [np.diff(own) for own in lines]
-    depth = free.shape[2]
-    for first in range(depth):
-        plate = np.ones(free.shape[:2], bool)
-        for last in range(first, depth):
-            plate = plate & free[:, :, last]
-            if not plate.any():
-                break
-            tall = float(lines[2][last + 1] - lines[2][first])
-            if tall * float(steps[0] @ plate @ steps[1]) <= best[0]:
-                continue
-            area, x, y = _rectangle(plate, lines[0], lines[1])
-            if area * tall > best[0]:
-                best = area * tall, (x, y, (first, last + 1))
+    for seed in zip(*np.unravel_index(seeds, free.shape), strict=True):
+        if not free[seed]:
+            continue
+        for order in ORDERS:
+            span = [[int(place), int(place) + 1] for place in seed]
+            for axis in order:
+                _stretch(free, span, axis)
+            volume = float(np.prod([w[a:b].sum() for w, (a, b) in zip(widths, span, strict=True)]))
+            if volume > best[0]:
+                best = volume, span
     return best[1]
 
 
-def _rectangle(
-    plate: Cells, x_lines: Floats, y_lines: Floats
-) -> tuple[float, tuple[int, int], tuple[int, int]]:
-    """Area (m2) and spans of the largest all-true rectangle of an (X, Y) plate."""
-    best = (0.0, (0, 0), (0, 0))
-    for first in range(plate.shape[0]):
-        row = np.ones(plate.shape[1], bool)
-        for last in range(first, plate.shape[0]):
-            row = row & plate[last]
-            if not row.any():
-                break
-            wide = float(x_lines[last + 1] - x_lines[first])
-            edges = np.flatnonzero(np.diff(np.concatenate([[0], row.view(np.int8), [0]])))
-            starts, ends = edges[0::2], edges[1::2]
-            lengths = y_lines[ends] - y_lines[starts]
-            k = int(np.argmax(lengths))
-            if wide * float(lengths[k]) > best[0]:
-                best = wide * float(lengths[k]), (first, last + 1), (int(starts[k]), int(ends[k]))
-    return best
+def _stretch(free: Cells, span: Span, axis: int) -> None:
+    """Widen a span along an axis while all its cells are free."""
+    window = tuple(slice(None) if k == axis else slice(*span[k]) for k in range(3))
+    others = tuple(k for k in range(3) if k != axis)
+    clear = free[window].all(axis=others)
+    low, high = span[axis]
+    before = np.flatnonzero(~clear[:low])
+    after = np.flatnonzero(~clear[high:])
+    span[axis][0] = int(before[-1]) + 1 if len(before) else 0
+    span[axis][1] = high + (int(after[0]) if len(after) else len(clear) - high)

@@ -18,6 +18,8 @@ MOST = 12
 """Convex pieces of a cover."""
 SPARE = 0.04
 """Share of the part's hull that the cover may hold beyond the part."""
+CONVEX = 0.9
+"""Share of its hull that a piece fills to count as convex."""
 PLANE = 0.03
 """Share of the surface that looks along an axis at one height and suggests a cut there."""
 BINS = 48
@@ -74,18 +76,22 @@ def _split(solid: Solid, axis: int, height: float) -> tuple[Solid, Solid]:
 
 
 def _best_cut(solid: Solid, *, least: float) -> tuple[int, float] | None:
-    """The plane that takes most from the hulls, if it takes `least` m3."""
+    """The plane that takes most from the hulls, if it takes `least` m3; else the one that takes the
+    largest convex piece off, as each wall of a tray is."""
     whole = solid.hull().volume
     best: tuple[float, tuple[int, float] | None] = (least, None)
+    piece: tuple[float, tuple[int, float] | None] = (0.0, None)
     for axis in range(3):
         for height in _heights(solid, axis):
             sides = _split(solid, axis, height)
             if any(side.is_empty for side in sides):
                 continue
-            gain = whole - sum(side.hull().volume for side in sides)
-            if gain > best[0]:
-                best = gain, (axis, height)
-    return best[1]
+            hulls = [side.hull().volume for side in sides]
+            best = max(best, (whole - sum(hulls), (axis, height)), key=lambda own: own[0])
+            for side, tight in zip(sides, hulls, strict=True):
+                if side.volume > CONVEX * tight:
+                    piece = max(piece, (side.volume, (axis, height)), key=lambda own: own[0])
+    return best[1] or piece[1]
 
 
 def _heights(solid: Solid, axis: int) -> Iterator[float]:

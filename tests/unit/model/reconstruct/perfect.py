@@ -18,9 +18,7 @@ def part(slot: int, solid: Solid) -> PartGuess:
     """A solid as a prediction of one color."""
     mesh = solid.trimesh()
     rgb = np.tile(COLORS.get(slot, (0.5, 0.5, 0.5)), (len(mesh.vertices), 1))
-    return PartGuess(
-        slot=slot, vertices=mesh.vertices, faces=mesh.faces, rgb=rgb, box=mesh.bounds
-    )
+    return PartGuess(slot=slot, vertices=mesh.vertices, faces=mesh.faces, rgb=rgb, box=mesh.bounds)
 
 
 def joint(

@@ -1,0 +1,70 @@
+"""A cover holds its part, and what is swept holds the part wherever it passes."""
+
+import math
+
+import numpy as np
+import pytest
+
+from artgen.articulation.kinematics import joint_motions
+from artgen.geometry.solid import Solid, cylinder, slab
+from model.reconstruct.assemble import _stated
+from model.reconstruct.cover import MOST, coarse, convex_cover, grown, swept
+from model.reconstruct.joints import clean_joint
+from tests.unit.model.reconstruct.perfect import joint, open_box
+
+TRAY = open_box(np.zeros(3), np.array([0.5, 0.4, 0.2]), 0.01, open_to=2, side=1)
+SHAPES = {
+    "box": slab((0.0, 0.0, 0.0), (0.3, 0.2, 0.1)),
+    "tray": TRAY,
+    "bar with knob": slab((0.0, 0.0, 0.0), (0.5, 0.02, 0.3))
+    | cylinder(0.02, 0.06).at(0.4, 0.01, 0.3),
+}
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_cover_holds_its_part_and_little_else(name: str) -> None:
+    """Hulls are merged within 1 mm, which a growth of 1 mm takes back; what is left over is
+    rounding of the booleans, 1e-12 m3 on parts of 1e-3."""
+    solid, tolerance = SHAPES[name], 1e-3
+    cover = convex_cover(solid, tolerance=tolerance)
+    left = solid
+    for piece in grown(cover, tolerance):
+        left = left - piece
+    assert left.volume <= 1e-12
+    assert len(cover) <= MOST
+    assert sum(piece.volume for piece in cover) - solid.volume <= 0.05 * solid.hull().volume
+
+
+def test_growing_a_box_adds_the_gap_on_every_side() -> None:
+    (found,) = grown((SHAPES["box"],), 0.002)
+    assert np.abs(found.bounds - [[-0.002] * 3, [0.302, 0.202, 0.102]]).max() <= 1e-12
+
+
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+def test_what_is_swept_holds_the_part_at_every_pose(kind: str) -> None:
+    names = {0: "base", 1: "part"}
+    stated = _stated(
+        clean_joint(joint(1, kind, axis=(0.0, 0.0, 1.0), origin=(0.1, 0.0, 0.0), upper=1.0)),  # type: ignore[arg-type]
+        names,
+    )
+    course = joint_motions(stated, np.linspace(0.0, 1.0, 9))
+    passed = swept((SHAPES["box"],), course)
+    for pose in course:
+        outside = SHAPES["box"].transformed(pose) - passed
+        assert outside.is_empty or outside.volume <= 1e-12
+
+
+def test_a_straight_way_is_exact() -> None:
+    """Two hundred by a hundred mm pushed along x by 0.5 m."""
+    course = np.tile(np.eye(4), (5, 1, 1))
+    course[:, 0, 3] = np.linspace(0.0, 0.5, 5)
+    passed = swept((SHAPES["box"],), course)
+    assert math.isclose(passed.volume, 0.8 * 0.2 * 0.1, rel_tol=1e-9)
+
+
+def test_a_coarse_copy_stays_near() -> None:
+    """A fine cylinder loses triangles, and little of its volume."""
+    fine: Solid = cylinder(0.1, 0.2, segments=2000)
+    found = coarse(fine, 400)
+    assert found.manifold.num_tri() <= 400
+    assert abs(found.volume / fine.volume - 1.0) <= 0.05
