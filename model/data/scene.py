@@ -1,5 +1,6 @@
 """Scene: an object in some states, its cameras and its light, before any ray is cast."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 from artgen.articulation.kinematics import forward_kinematics
 from artgen.articulation.states import sample_states
 from artgen.articulation.targets import targets
-from artgen.articulation.types import Joint, Precondition
+from artgen.articulation.types import Joint, Precondition, State
 from artgen.core.mesh import Floats, Ints
 from artgen.core.stream import Stream
 from model.data.config import DataConfig, Motion
@@ -65,11 +66,8 @@ def drawn_scene(soup: Soup, config: DataConfig, stream: Stream) -> Scene:
     aims = targets(
         soup.parts, list(soup.bounds), soup.joints, states, center=soup.center, radius=soup.radius
     )
-    poses = np.tile(np.eye(4), (len(states), config.slots, 1, 1))
-    for t, state in enumerate(states):
-        by_name = forward_kinematics(soup.parts[0], soup.joints, state)
-        moved = np.stack([by_name[name] for name in soup.parts])
-        poses[t, : len(soup.parts)] = centered(moved, soup.center, soup.radius)
+    found = truth(aims, radius=soup.radius, slots=config.slots)
+    poses = _poses(soup, states, config.slots)
     corners = _box_corners((soup.bounds - soup.center) / soup.radius)
     turned = np.einsum("tpij,pkj->tpki", poses[:, : len(corners), :3, :3], corners)
     points = turned + poses[:, : len(corners), None, :3, 3]
@@ -80,7 +78,7 @@ def drawn_scene(soup: Soup, config: DataConfig, stream: Stream) -> Scene:
     return Scene(
         asset_id=soup.asset_id,
         category=soup.category,
-        truth=truth(aims, radius=soup.radius, slots=config.slots),
+        truth=found,
         vertices=((soup.vertices - soup.center) / soup.radius).astype(np.float32),
         faces=soup.faces,
         part=soup.part,
@@ -94,6 +92,16 @@ def drawn_scene(soup: Soup, config: DataConfig, stream: Stream) -> Scene:
         background=background_color(config.background, stream.child("background")),
         draws=ray_draws(config, stream.child("rays")),
     )
+
+
+def _poses(soup: Soup, states: Sequence[State], slots: int) -> Floats:
+    """(T, P, 4, 4) where parts at rest are in each state, radii; identity in empty slots."""
+    poses = np.tile(np.eye(4), (len(states), slots, 1, 1))
+    for t, state in enumerate(states):
+        by_name = forward_kinematics(soup.parts[0], soup.joints, state)
+        moved = np.stack([by_name[name] for name in soup.parts])
+        poses[t, : len(moved)] = centered(moved, soup.center, soup.radius)
+    return poses
 
 
 def drawn_states(
