@@ -6,6 +6,7 @@ import manifold3d as m3
 import numpy as np
 
 from artgen.core.errors import GeometryError
+from artgen.core.mesh import Ints
 from artgen.geometry.solid import Solid, slab, union
 from model.reconstruct.guess import PartGuess
 
@@ -28,20 +29,29 @@ class Shape:
 def shape_of(guess: PartGuess, *, tolerance: float, triangles: int) -> Shape:
     """The part as a solid whose surface lies within `tolerance` m of the predicted one, or within
     as much more as brings it down to some `triangles`."""
-    manifold = m3.Manifold(m3.Mesh64(np.array(guess.vertices), guess.faces.astype(np.uint64)))
     changes: list[str] = []
-    if manifold.status() != m3.Error.NoError or abs(manifold.volume()) == 0.0:
-        if len(guess.vertices) > 3 and manifold.status() != m3.Error.NoError:
-            changes.append(f"its surface is not closed ({manifold.status().name})")
+    manifold = _closed(guess, guess.faces, changes)
+    if manifold is None:
         changes.append("its predicted box stands for it")
         return Shape(solid=predicted_box(guess), changes=tuple(changes))
     if manifold.volume() < 0.0:
         changes.append("its surface was turned inside out")
-        faces = guess.faces[:, ::-1].astype(np.uint64)
-        manifold = m3.Manifold(m3.Mesh64(np.array(guess.vertices), faces))
+        manifold = _closed(guess, guess.faces[:, ::-1], changes) or manifold
     return Shape(
         solid=_tidy(Solid(manifold), tolerance, triangles, changes), changes=tuple(changes)
     )
+
+
+def _closed(guess: PartGuess, faces: Ints, changes: list[str]) -> m3.Manifold | None:
+    """The surface as manifold3d takes it; None where it is empty, open or without a volume."""
+    if not len(faces):
+        changes.append("it has no surface")
+        return None
+    manifold = m3.Manifold(m3.Mesh64(np.array(guess.vertices), faces.astype(np.uint64)))
+    if manifold.status() != m3.Error.NoError or manifold.volume() == 0.0:
+        changes.append(f"its surface encloses nothing ({manifold.status().name})")
+        return None
+    return manifold
 
 
 def _tidy(solid: Solid, tolerance: float, triangles: int, changes: list[str]) -> Solid:

@@ -12,6 +12,7 @@ from artgen.textures.atlas import LINEAR, framed
 from artgen.textures.images import TextureSet
 from artgen.textures.picture import picture_surface
 from artgen.textures.raster import touched_texels
+from model.reconstruct.guess import GRAY
 
 ColorAt = Callable[[Floats], Floats]
 """(N, 3) points, m, to (N, 3) sRGB in [0, 1]."""
@@ -23,7 +24,9 @@ ROUGHNESS = 0.6
 
 
 def nearest_color(vertices: Floats, rgb: Floats) -> ColorAt:
-    """Colors of the nearest vertices, the nearer the more."""
+    """Colors of the nearest vertices, the nearer the more; gray where there are none."""
+    if not len(vertices):
+        return lambda points: np.full((len(points), 3), GRAY)
     tree = cKDTree(vertices)
     count = min(NEIGHBORS, len(vertices))
 
