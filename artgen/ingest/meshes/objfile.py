@@ -13,6 +13,8 @@ from artgen.ingest.meshes.soup import Faces, Look, Soup
 from artgen.validate.places import inside, read_capped
 
 MAX_IMAGE_BYTES = 32 * 2**20
+METAL = 0.4
+"""Mean of `Ks` above which a surface without an image is taken to be a metal."""
 IMAGES = (".png", ".jpg", ".jpeg", ".bmp", ".tga", ".gif", ".tif", ".tiff", ".webp")
 
 
@@ -160,10 +162,13 @@ def _look(stated: dict[str, str], path: Path, root: Path) -> Look:
     clear = _numbers(stated.get("Tr", ""), 1)
     plain = Look()
     red, green, blue = plain.color if color is None else color
+    gloss = _numbers(stated.get("Ks", ""), 3)
+    shiny = gloss is not None and sum(gloss) > 3.0 * METAL and "map_Kd" not in stated
     return Look(
         color=(red, green, blue),
         opacity=1.0 - clear[0] if clear and opacity is None else (opacity or (1.0,))[0],
         roughness=plain.roughness if shine is None else (2.0 / (max(shine[0], 0.0) + 2.0)) ** 0.5,
+        metallic=float(shiny),
         image=_image(stated.get("map_Kd"), path, root),
     )
 

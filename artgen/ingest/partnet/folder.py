@@ -63,11 +63,11 @@ def read_partnet(root: Path) -> ForeignObject:
         doubts.append(f"{junk} junk nodes are left out")
     if any(number != node for node, number in numbers.items()):
         doubts.append("links are numbered without the junk nodes")
+    tree = _Tree(nodes, doubts)
     if robot is not None:
         doubts += shortened(disagreements(nodes, objs, robot))
     if named and meta.category and _word(named) != _word(meta.category):
         doubts.append(f"meta.json says {meta.category}, result.json {named}; meta.json counts")
-    tree = _Tree(nodes, doubts)
     parts = tuple(_part(root, name, own, objs, words) for name, own in tree.groups.items())
     note = _note(root)
     meters = note.get("meters_per_unit")
