@@ -42,7 +42,9 @@ class Objective(nn.Module):
         with autocast(batch, self.precision):
             prediction: Prediction = self.art(batch.images, batch.truth.valid_BP)
         with autocast(batch, self.field_precision):
-            rendered = seen_along(prediction, batch, moment, draws=True)
+            rendered = (
+                seen_along(prediction, batch, moment, draws=True) if moment.rendered else None
+            )
         return losses(
             prediction,
             batch,

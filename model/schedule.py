@@ -47,6 +47,8 @@ class TrainConfig:
         stages: sizes of supervised images, coarse to fine.
         samples: points per ray and part whose distance and color are computed.
         coarse: points per ray and part that first look for the surface; 0 spreads samples evenly.
+        rendered: share of the run at which rays begin to be rendered; before, boxes and joints
+            alone are learned, at a third of the price.
         forced: share of the run in which rays follow the true boxes and joints; afterwards the
             predicted ones.
         perceptual: shares of the run at which the perceptual term begins and is whole.
@@ -72,6 +74,7 @@ class TrainConfig:
     stages: tuple[Stage, ...] = (Stage(start=0.0, target_px=128),)
     samples: int = 32
     coarse: int = 0
+    rendered: float = 0.0
     forced: float = 0.5
     perceptual: tuple[float, float] = (0.3, 0.5)
     save_every: int = 500
@@ -153,6 +156,7 @@ class Moment:
         target_px: size of supervised images.
         samples: points per ray and part.
         coarse: points per ray and part that look for the surface first.
+        rendered: whether rays are rendered.
         forced: whether rays follow the true boxes and joints.
         perceptual: factor on the perceptual term, in [0, 1].
     """
@@ -162,6 +166,7 @@ class Moment:
     target_px: int
     samples: int
     coarse: int
+    rendered: bool
     forced: bool
     perceptual: float
 
@@ -174,6 +179,7 @@ def moment_at(config: TrainConfig, step: int) -> Moment:
         target_px=stage_at(config, step).target_px,
         samples=config.samples,
         coarse=config.coarse,
+        rendered=step >= config.rendered * config.steps,
         forced=forced_at(config, step),
         perceptual=perceptual_at(config, step),
     )

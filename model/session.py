@@ -60,6 +60,7 @@ def run_session(
         UsageError: the folder holds a run of other settings, or is in use.
         ModelError: data, weights or the training itself failed.
     """
+    torch.set_flush_denormal(True)  # Tails of densities would slow a CPU down several times.
     with joined(environment, device=device, plan=plan) as team:
         if team.leads:
             folder.mkdir(parents=True, exist_ok=True)

@@ -44,6 +44,17 @@ def test_true_joints_lead_at_first() -> None:
     assert not forced_at(TrainConfig(forced=0.0), 0)
 
 
+def test_rays_are_rendered_from_their_share_of_the_run_on() -> None:
+    late = TrainConfig(steps=100, rendered=0.3)
+    assert [moment_at(late, step).rendered for step in (0, 29, 30, 99)] == [
+        False,
+        False,
+        True,
+        True,
+    ]
+    assert moment_at(CONFIG, 0).rendered
+
+
 def test_the_perceptual_term_fades_in() -> None:
     found = [perceptual_at(CONFIG, step) for step in (0, 220, 330, 440, 1100)]
     assert found == pytest.approx([0.0, 0.0, 0.5, 1.0, 1.0], abs=ROUNDINGS)
