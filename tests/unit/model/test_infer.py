@@ -1,0 +1,73 @@
+"""What the network is not made for is told before it runs."""
+
+import pytest
+import torch
+
+from artgen.core.errors import ModelError
+from model.art import Art
+from model.batch import Images
+from model.config import Config
+from model.infer import predict
+from model.recipes import RECIPES, articulation_only
+
+
+@pytest.fixture(scope="module")
+def untrained() -> tuple[Art, Config]:
+    torch.manual_seed(0)
+    config = articulation_only(RECIPES["debug"]("nano"))
+    return Art(config.model).eval(), config
+
+
+def images(config: Config, *, states: int, views: int) -> Images:
+    size = config.data.input_px
+    shape = (1, states, views)
+    return Images(
+        rgb_BTV3HW=torch.rand(*shape, 3, size, size),
+        alpha_BTVHW=torch.ones(*shape, size, size),
+        intrinsics_BTV33=torch.tensor([[60.0, 0, 24], [0, 60, 24], [0, 0, 1]]).expand(*shape, 3, 3),
+        camera_from_world_BTV44=torch.eye(4).expand(*shape, 4, 4),
+    )
+
+
+def test_the_slots_asked_for_are_filled(untrained: tuple[Art, Config]) -> None:
+    art, config = untrained
+    seen = images(config, states=config.data.states, views=config.data.views)
+    found = predict(art, config, seen, parts=3)
+    assert int(found.articulation.valid_BP.sum()) == 3
+
+
+def test_more_parts_than_slots_are_refused(untrained: tuple[Art, Config]) -> None:
+    art, config = untrained
+    seen = images(config, states=config.data.states, views=config.data.views)
+    for parts in (0, config.model.slots + 1):
+        with pytest.raises(ModelError, match=f"--parts {parts}: this checkpoint has"):
+            predict(art, config, seen, parts=parts)
+
+
+def test_too_many_states_are_refused(untrained: tuple[Art, Config]) -> None:
+    art, config = untrained
+    states = config.model.images.states + 1
+    with pytest.raises(ModelError, match=f"show {states} states, this checkpoint reads up to"):
+        predict(art, config, images(config, states=states, views=config.data.views), parts=2)
+
+
+def test_too_few_views_are_refused(untrained: tuple[Art, Config]) -> None:
+    art, config = untrained
+    views = config.data.views - 1
+    if views:
+        seen = images(config, states=config.data.states, views=views)
+        with pytest.raises(ModelError, match=f"show {views} views a state"):
+            predict(art, config, seen, parts=2)
+
+
+def test_the_number_of_parts_is_counted_where_it_is_not_given(
+    untrained: tuple[Art, Config],
+) -> None:
+    art, config = untrained
+    seen = images(config, states=config.data.states, views=config.data.views)
+    if config.model.count:
+        found = predict(art, config, seen, parts=None)
+        assert 1 <= int(found.articulation.valid_BP.sum()) <= config.model.slots
+    else:
+        with pytest.raises(ModelError, match="does not count them; say --parts"):
+            predict(art, config, seen, parts=None)
