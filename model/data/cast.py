@@ -88,12 +88,12 @@ def first_hits(
     code = torch.full(
         (channels * size[0] * size[1],), -1, dtype=torch.int64, device=flat_F33.device
     )
-    seen = torch.nonzero(_faces_camera(flat_F33)).squeeze(1)
+    rows_F2 = _rows(flat_F33, size)
+    seen = torch.nonzero(_faces_camera(flat_F33) & (rows_F2[:, 1] > 0)).squeeze(1)
     if len(seen):
-        flat = flat_F33[seen]
-        for part in _chunks(_rows(flat, size[0])):
+        for part in _chunks(rows_F2[seen]):
             name = seen[part]
-            _draw(code, flat[part], order_F[name], channel_F[name], name, size)
+            _draw(code, flat_F33[name], rows_F2[name], order_F[name], channel_F[name], name, size)
     return Hits(code_CHW=code.view(channels, *size))
 
 
@@ -104,12 +104,16 @@ def _faces_camera(flat_F33: Tensor) -> Tensor:
     return first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0.0
 
 
-def _rows(flat_F33: Tensor, height: int) -> Tensor:
-    """(F, 2) int64 first row of pixel centers that a triangle may meet, and how many."""
-    low, high = flat_F33[..., 1].aminmax(dim=1)
-    first = torch.ceil(low - 0.5).clamp(0, height)
-    last = torch.floor(high - 0.5).clamp(-1, height - 1)
-    return torch.stack([first, (last - first + 1).clamp(min=0)], dim=1).long()
+def _rows(flat_F33: Tensor, size: tuple[int, int]) -> Tensor:
+    """(F, 2) int64 first row of pixel centers that a triangle may meet, and how many; none where
+    it lies between two columns."""
+    low, high = flat_F33[..., :2].aminmax(dim=1)
+    limit = torch.tensor([size[1], size[0]], dtype=low.dtype, device=low.device)
+    first = torch.minimum(torch.ceil(low - 0.5).clamp(min=0.0), limit)
+    last = torch.minimum(torch.floor(high - 0.5), limit - 1.0)
+    count = (last - first + 1.0).clamp(min=0.0)
+    rows = torch.where(count[:, 0] > 0.0, count[:, 1], 0.0)
+    return torch.stack([first[:, 1], rows], dim=1).long()
 
 
 def _chunks(rows_F2: Tensor) -> list[slice]:
@@ -124,6 +128,7 @@ def _chunks(rows_F2: Tensor) -> list[slice]:
 def _draw(
     code: Tensor,
     flat_F33: Tensor,
+    rows_F2: Tensor,
     order_F: Tensor,
     channel_F: Tensor,
     name_F: Tensor,
@@ -131,10 +136,9 @@ def _draw(
 ) -> None:
     """Put the nearest of these triangles into `code`, which is changed in place."""
     height, width = size
-    rows_F2 = _rows(flat_F33, height)
     owner_S, step_S = _spread(rows_F2[:, 1])
     y_S = (rows_F2[owner_S, 0] + step_S).float() + 0.5
-    left_S, count_S = _intervals(flat_F33[owner_S], y_S, width)
+    left_S, count_S = _intervals(_edges(flat_F33)[owner_S], y_S, width)
     near_S, slope_S, least_S, most_S = _nearness(flat_F33, owner_S, y_S, left_S)
     bias_S = 1.0 + LATER * order_F[owner_S]
     start_S = (channel_F[owner_S] * height + rows_F2[owner_S, 0] + step_S) * width + left_S
@@ -152,22 +156,31 @@ def _spread(count_F: Tensor) -> tuple[Tensor, Tensor]:
     return index, torch.arange(len(index), device=count_F.device) - starts[index]
 
 
-def _intervals(flat_S33: Tensor, y_S: Tensor, width: int) -> tuple[Tensor, Tensor]:
-    """First pixel center within a triangle on a row, and how many follow it there, itself included.
+def _edges(flat_F33: Tensor) -> Tensor:
+    """(F, 4, 3) x at the upper end, upper y, lower y and slope of the three edges.
 
-    An edge is walked from its upper end, whichever triangle asks.
+    An edge is walked from its upper end, whichever triangle asks. Level ones meet no row; the other
+    two have their ends.
     """
-    ends = flat_S33[..., :2]
+    ends = flat_F33[..., :2]
     a, b = ends, ends.roll(-1, dims=1)
-    swap = (a[..., 1] > b[..., 1]) | ((a[..., 1] == b[..., 1]) & (a[..., 0] > b[..., 0]))
-    a, b = torch.where(swap[..., None], b, a), torch.where(swap[..., None], a, b)
-    rise = b[..., 1] - a[..., 1]
+    swap = (a[..., 1:] > b[..., 1:]) | ((a[..., 1:] == b[..., 1:]) & (a[..., :1] > b[..., :1]))
+    a, b = torch.where(swap, b, a), torch.where(swap, a, b)
+    (x, top), (far, bottom) = a.unbind(dim=2), b.unbind(dim=2)
+    rise = bottom - top
+    slope = (far - x) / torch.where(rise > 0.0, rise, 1.0)
+    return torch.stack([x, top, torch.where(rise > 0.0, bottom, -torch.inf), slope], dim=1)
+
+
+def _intervals(edges_S43: Tensor, y_S: Tensor, width: int) -> tuple[Tensor, Tensor]:
+    """First pixel center within a triangle on a row, and how many follow it there, itself
+    included."""
+    x, top, bottom, slope = edges_S43.unbind(dim=1)
     y = y_S[:, None]
-    meets = (rise > 0.0) & (a[..., 1] <= y) & (y <= b[..., 1])
-    share = (y - a[..., 1]) / torch.where(meets, rise, 1.0)
-    x = a[..., 0] + share * (b[..., 0] - a[..., 0])
-    low = torch.where(meets, x, torch.inf).amin(dim=1)
-    high = torch.where(meets, x, -torch.inf).amax(dim=1)
+    crossing = x + (y - top) * slope
+    meets = (top <= y) & (y <= bottom)
+    low = torch.where(meets, crossing, torch.inf).amin(dim=1)
+    high = torch.where(meets, crossing, -torch.inf).amax(dim=1)
     first = torch.ceil(low - 0.5).clamp(0, width)
     last = torch.floor(high - 0.5).clamp(-1, width - 1)
     return first.long(), (last - first + 1).clamp(min=0).long()

@@ -53,8 +53,9 @@ def picked(mask_BNPHW: Tensor, draws_BKD: Tensor, config: DataConfig) -> tuple[T
 def _dilated(mask_KHW: Tensor, reach: int) -> Tensor:
     if reach == 0:
         return mask_KHW
-    window = 2 * reach + 1
-    return functional.max_pool2d(mask_KHW[:, None].float(), window, 1, reach)[:, 0] > 0.0
+    wide, image = 2 * reach + 1, mask_KHW[:, None].float()
+    image = functional.max_pool2d(image, (1, wide), 1, (0, reach))  # Lines, then columns.
+    return functional.max_pool2d(image, (wide, 1), 1, (reach, 0))[:, 0] > 0.0
 
 
 def _in_mask(wide_BQX: Tensor, counts_BQ: Tensor, q_BK: Tensor, draw_BK: Tensor) -> Tensor:

@@ -131,8 +131,9 @@ def target_cameras(
 def _rays(stage: Stage, scenes: Sequence[Scene], images: Images, config: DataConfig) -> Rays:
     cameras = target_cameras(stage, scenes, images, config)
     items, count = cameras.state_BN.shape
-    code = cast(stage, cameras, size=config.target_px, parts=config.slots).code_CHW
-    code_BNPHW = code.view(items, count, config.slots, *code.shape[1:])
+    parts = max(int(scene.truth.arrays["valid_P"].sum()) for scene in scenes)
+    code = cast(stage, cameras, size=config.target_px, parts=parts).code_CHW
+    code_BNPHW = code.view(items, count, parts, *code.shape[1:])
     draws = torch.from_numpy(np.stack([scene.draws for scene in scenes])).to(code.device)
     image_BR, pixel_BR = picked(code_BNPHW >= 0, draws, config)
     item_BR = torch.arange(items, device=code.device)[:, None].expand_as(image_BR)
@@ -145,13 +146,20 @@ def _rays(stage: Stage, scenes: Sequence[Scene], images: Images, config: DataCon
         origin_BR3=cameras.center_BN3[item_BR, image_BR],
         direction_BR3=sight_BR3 / length[..., None],
         state_BR=cameras.state_BN.gather(1, image_BR),
-        part_rgb_BPR3=part_rgb.transpose(1, 2).contiguous(),
-        part_alpha_BPR=(code_BRP >= 0).float().transpose(1, 2).contiguous(),
+        part_rgb_BPR3=_slotted(part_rgb.transpose(1, 2), config.slots),
+        part_alpha_BPR=_slotted((code_BRP >= 0).float().transpose(1, 2), config.slots),
         rgb_BR3=part_rgb.gather(2, first_BR[..., None, None].expand(-1, -1, 1, 3))[:, :, 0],
         alpha_BR=(nearest_BR >= 0).float(),
         distance_BR=depths(stage, cameras, nearest_BR) * length,
         patch=(config.patch_px, config.patch_px) if config.patch_px else None,
     )
+
+
+def _slotted(array_BP: Tensor, slots: int) -> Tensor:
+    """The array with empty slots, zeros, behind its parts."""
+    full = array_BP.new_zeros(len(array_BP), slots, *array_BP.shape[2:])
+    full[:, : array_BP.shape[1]] = array_BP
+    return full
 
 
 def _part_colors(

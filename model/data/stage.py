@@ -80,12 +80,21 @@ def staged(scenes: Sequence[Scene], device: torch.device) -> Stage:
 def flat_points(stage: Stage, cameras: Cameras) -> Tensor:
     """(V, N, 3) every vertex in every camera of its scene: px x, px y, 1 / depth."""
     count = cameras.state_BN.shape[1]
-    state_VN = cameras.state_BN[stage.item_V]
+    state_VN = _of_items(cameras.state_BN, stage.item_V)
     points_VN3 = stage.points_VT3.gather(1, state_VN[..., None].expand(-1, -1, 3))
-    pose_VN44 = cameras.camera_from_world_BN44[stage.item_V]
-    local = (pose_VN44[..., :3, :3] @ points_VN3[..., None])[..., 0] + pose_VN44[..., :3, 3]
-    intrinsics = cameras.intrinsics_BN33[stage.item_V].flatten(0, 1)
+    pose_VN44 = _of_items(cameras.camera_from_world_BN44, stage.item_V)
+    local = pose_VN44[..., :3, 3]
+    for k in range(3):  # Plain sums are quicker than many small matrix products.
+        local = local + pose_VN44[..., :3, k] * points_VN3[..., k, None]
+    intrinsics = _of_items(cameras.intrinsics_BN33, stage.item_V).flatten(0, 1)
     return projected(local.flatten(0, 1), intrinsics).view(-1, count, 3)
+
+
+def _of_items(rows_B: Tensor, item: Tensor) -> Tensor:
+    """`rows_B[item]`, without a copy of one item's rows."""
+    if len(rows_B) == 1:
+        return rows_B.expand(len(item), *rows_B.shape[1:])
+    return rows_B[item]
 
 
 def cast(stage: Stage, cameras: Cameras, *, size: int, parts: int | None = None) -> Hits:
