@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from artgen.assembly.looks import (
     handle_surface,
     stuff_of,
 )
-from artgen.assembly.piece import Piece, joined, weighed
+from artgen.assembly.piece import Piece, joined, picked, weighed
 from artgen.assembly.placing import Named, placed
 from artgen.assembly.shape_hash import looks_hash, object_hash, shape_hash, tree_hash
 from artgen.assembly.source import Member, Source
@@ -42,6 +42,10 @@ MAIN = 0.1
 """Least share of a base's surface that a wood or paint covers to be its main one."""
 
 
+Layer = Literal["body", "handle", "works"]
+LAYERS: tuple[Layer, ...] = ("body", "handle", "works")
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Assembled:
     """A new object before it is unwrapped and weighed, and what it is made from.
@@ -49,6 +53,7 @@ class Assembled:
     Attributes:
         sources: for each slot filled, what filled it, as JSON.
         tried: reasons for which something else was taken before.
+        seams: name of a filled part to how many of its bodies are front, handle and works.
     """
 
     category: str
@@ -61,6 +66,17 @@ class Assembled:
     donors: tuple[str, ...]
     sources: tuple[Mapping[str, Any], ...]
     tried: tuple[str, ...]
+    seams: Mapping[str, tuple[int, int, int]]
+
+    def piece(self, name: str) -> Piece:
+        """All bodies of a part."""
+        return next(piece for known, _, piece in self.parts if known == name)
+
+    def layer(self, name: str, layer: Layer) -> Piece | None:
+        """The front, the handle or the works of a filled part; None where it has none."""
+        counts = self.seams[name]
+        place = LAYERS.index(layer)
+        return picked(self.piece(name), range(sum(counts[:place]), sum(counts[: place + 1])))
 
     @property
     def hashes(self) -> dict[str, str]:
@@ -152,6 +168,7 @@ class _Attempt:
         self.main = main_surfaces(source)
         self.group_of = {s.name: k for k, g in enumerate(groups) for s in g.slots}
         self.told: list[Mapping[str, Any]] = []
+        self.seams: dict[str, tuple[int, int, int]] = {}
         self.licences = [source.licence]
         self.donors = {source.family}
 
@@ -163,7 +180,7 @@ class _Attempt:
             if piece is None:
                 return None
             parts.append((member.name, member.label, piece))
-        named, joints = placed(parts, [member.joint for member in self.source.members])
+        named, joints = placed(parts, self.source.joints)
         pieces = {name: piece for name, _, piece in named}
         rules = self.source.preconditions
         if clash := clashing(self.source.base_name, joints, rules, pieces):
@@ -180,6 +197,7 @@ class _Attempt:
             donors=tuple(sorted(self.donors)),
             sources=tuple(self.told),
             tried=tuple(self.plan.tried),
+            seams=self.seams,
         )
 
     def _move_on(self, clash: tuple[str, str]) -> None:
@@ -226,14 +244,24 @@ class _Attempt:
         try:
             handle = self._handle(member, donor, fill)
         except Misfit as misfit:
-            self.plan.next_handle(len(self.handles), f"{member.name}: {misfit}")
+            why = f"{member.name} from {donor_source.id}: {misfit}"
+            if self.plan.handle is None:
+                self.plan.next_donor(group, self.groups, why)
+            else:
+                self.plan.next_handle(len(self.handles), why)
             return None
         body = self.table.take(fill.body, donor_source.surfaces, self._for_front)
         if place is not None:
             self._tell(member, donor_source, donor, fill)
-        works = [self.table.take(p, self.source.surfaces, self._for_works)
-                 for p in (member.works,) if p is not None]  # fmt: skip
-        return _with_grips(joined([body, *([handle] if handle else []), *works]), member)
+        layers = [body, handle, self._works(member)]
+        front, knob, rest = (len(p.densities) if p else 0 for p in layers)
+        self.seams[member.name] = front, knob, rest
+        return _with_grips(joined([p for p in layers if p is not None]), member)
+
+    def _works(self, member: Member) -> Piece | None:
+        if member.works is None:
+            return None
+        return self.table.take(member.works, self.source.surfaces, lambda surface: surface)
 
     def _handle(self, member: Member, donor: Member, fill: Fill) -> Piece | None:
         """The handle of a slot, in slots of the table; None where its front needs none."""
@@ -242,8 +270,8 @@ class _Attempt:
         if member.handle is None and (donor.handle is None or self._waits(member)):
             return None
         if self.plan.handle is None:
-            if member.handle is None:
-                return None
+            if member.handle is None or donor is member:
+                return self._own_handle(member)
             source, part = self.source, member
         else:
             entry = self.handles[self.plan.handle]
@@ -251,10 +279,16 @@ class _Attempt:
             part = source.members[entry.number]
             self.donors.add(source.family)
             self.licences.append(source.licence)
-        mounted = middle_grip(handle_on(member, fill.body.mesh, donor, part), member.name)
+        mounted = middle_grip(handle_on(member, fill.body, donor, part), member.name)
         self.told.append({"part": member.name, "piece": "handle", "source": source.id,
                           "of": part.name, "licence": source.licence.id})  # fmt: skip
         return self.table.take(mounted, source.surfaces, self._for_handle)
+
+    def _own_handle(self, member: Member) -> Piece | None:
+        """The template's handle where it was."""
+        if member.handle is None:
+            return None
+        return self.table.take(member.handle, self.source.surfaces, self._for_handle)
 
     def _waits(self, member: Member) -> bool:
         return any(rule.joint == member.joint.name for rule in self.source.preconditions)
@@ -264,9 +298,6 @@ class _Attempt:
 
     def _for_handle(self, surface: SurfaceSpec) -> SurfaceSpec:
         return handle_surface(surface, self.looks)
-
-    def _for_works(self, surface: SurfaceSpec) -> SurfaceSpec:
-        return surface
 
     def _tell(self, member: Member, source: Source, donor: Member, fill: Fill) -> None:
         self.donors.add(source.family)

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from artgen.articulation.types import Grip, Joint
-from artgen.assembly.fit import box_map, fitted, flat_triangles
-from artgen.assembly.handles import mounted, place_of
+from artgen.assembly.fit import box_map, fitted, flat_triangles, frame_borders
+from artgen.assembly.handles import mounted, place_of, places_on
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.piece import Piece
 from artgen.assembly.source import Member
 from artgen.assembly.uv_fix import areas, gradients, quarter_turned, unit_normals
-from artgen.core.mesh import Floats, TriMesh
+from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
 from artgen.export.kinematics import vector
 
@@ -83,7 +83,7 @@ def with_grain(body: Piece, donor: Piece, surfaces: Sequence[SurfaceSpec]) -> Pi
     return dataclasses.replace(body, mesh=turned)
 
 
-def handle_on(slot: Member, front: TriMesh, donor: Member, handle: Member) -> Piece:
+def handle_on(slot: Member, front: Piece, donor: Member, handle: Member) -> Piece:
     """A handle on a fitted front: `donor` gave the front, `handle` is the part that it comes from.
 
     Raises:
@@ -91,13 +91,15 @@ def handle_on(slot: Member, front: TriMesh, donor: Member, handle: Member) -> Pi
     """
     if handle.handle is None:
         raise Misfit(f"{handle.name} has no handle")
-    own, here = (np.diff(m.bounds, axis=0)[0] for m in (handle.body.mesh, front))
+    own, here = (np.diff(p.bounds, axis=0)[0] for p in (handle.body, front))
     scale = float((here[0] * here[2] / (own[0] * own[2])) ** (GROWTH / 2.0))
     place = place_of(slot, donor, front.bounds)
-    found = mounted(handle.handle, place, front, scale=scale)
-    if found is None:
-        raise Misfit("no handle fits on the front")
-    return found
+    borders = frame_borders(front)
+    for where in places_on(place, slot.side, front.bounds, borders):
+        found = mounted(handle.handle, where, front.mesh, scale=scale)
+        if found is not None:
+            return found
+    raise Misfit("the handle does not fit on the front")
 
 
 def gripped(piece: Piece, name: str, joint: Joint) -> tuple[Grip, ...]:

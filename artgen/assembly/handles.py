@@ -1,7 +1,8 @@
 """Handles on fitted fronts: never stretched, turned where they lay otherwise, on the face of the
 front, on the side away from the hinge."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -20,10 +21,10 @@ MARGIN = 0.006
 """m; between a handle and the sides of its front."""
 FOOT = 0.0006
 """m; what of a handle lies this near to its rear rests on the front."""
-RESTS = 0.3
-"""Least share of its foot that lies on the face of the front."""
-ON_FACE = 0.001
-"""m."""
+RESTS = 0.7
+"""Least share of its foot that lies on the face of the front: all posts of a bar, not one."""
+ON_FACE = 0.0035
+"""m; a post may bridge a groove."""
 FREE = 0.045
 """m; from the free side of a front to the middle of a handle, where nothing else tells."""
 EVEN = 0.06
@@ -72,6 +73,19 @@ def place_of(slot: Member, donor: Member, front: Floats) -> Place:
     if slot.label != donor.label and lie != "round":
         lie = "x" if slot.side == "out" else "z"
     return Place(x=x, z=float(z), lie=lie)
+
+
+def places_on(place: Place, side: Side, front: Floats, borders: Floats) -> Iterator[Place]:
+    """A place and, where it may lie over a recess, the middle of the frame beside it: the stile
+    away from the hinge, the upper rail of what slides out."""
+    yield place
+    stile, rail = borders[:, 0].max() / 2.0, borders[1, 2] / 2.0
+    if side == "left" and stile > 0.0:
+        yield replace(place, x=float(front[1, 0] - stile), lie="z")
+    elif side == "right" and stile > 0.0:
+        yield replace(place, x=float(front[0, 0] + stile), lie="z")
+    elif rail > 0.0:
+        yield replace(place, z=float(front[1, 2] - rail), lie="x")
 
 
 def _usual_place(side: Side, front: Floats) -> Place:

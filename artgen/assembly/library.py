@@ -11,6 +11,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from artgen import __version__
+from artgen.articulation.roles import ROLES
 from artgen.assembly.handles import lie_of, turns_over
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.piece import Piece
@@ -235,7 +236,8 @@ def is_slot(entry: Entry) -> bool:
     """Whether a donor may take the place of a template's part: it hangs on the base and moves by
     itself, and a front can be told from what lies behind it or all of it goes."""
     opens = entry.side in ("out", "along", "left", "right", "bottom", "top")
-    return not entry.is_base and entry.on_base and not entry.follows and opens
+    closes = entry.label in ROLES and ROLES[entry.label].closes
+    return not entry.is_base and entry.on_base and not entry.follows and opens and closes
 
 
 def _from_row(row: dict[str, object]) -> Entry:

@@ -8,6 +8,7 @@ from typing import Literal
 import manifold3d as m3
 import numpy as np
 
+from artgen.articulation.canonical import parents_first
 from artgen.articulation.types import (
     ArticulatedObject,
     Draft,
@@ -83,6 +84,12 @@ class Source:
     licence: Licence = OURS
     dataset: str = "artgen"
     family: str = field(default="")
+
+    @property
+    def joints(self) -> list[Joint]:
+        """Parents before children."""
+        names = [self.base_name, *(member.name for member in self.members)]
+        return parents_first([member.joint for member in self.members], names)
 
     @property
     def pieces(self) -> tuple[Piece, ...]:

@@ -1,0 +1,363 @@
+"""What must hold of every assembled object, whatever its template and donors.
+
+Numbers are those of the list in docs/assembly.md; what holds of a set of objects is in `variety`,
+what holds of files is validation's.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from artgen.articulation.kinematics import forward_kinematics
+from artgen.articulation.roles import ROLES
+from artgen.articulation.types import Joint, State
+from artgen.assembly.assemble import Assembled
+from artgen.assembly.licence import most_restrictive
+from artgen.assembly.looks import stuff_of
+from artgen.assembly.piece import Piece, body_volumes, joined
+from artgen.assembly.shape_hash import tree_hash
+from artgen.assembly.source import Member, Source
+from artgen.assembly.texels import by_surface, part_medians, stretch
+from artgen.assembly.uv_fix import areas
+from artgen.core.mesh import Floats, TriMesh
+from artgen.core.transform import apply
+from artgen.dataset.split import split_of
+from artgen.geometry.clearance import Mover, Shape, overlaps, shape_of_mesh
+from artgen.geometry.distance import nearest_distance
+from artgen.validate.bounds import shipped_bounds
+from artgen.validate.mesh import repeated
+from artgen.validate.sweep import crossings
+
+BOX = 1e-6
+"""Share of the diagonal by which a body's box may miss its slot's: ten steps of the vertex grid
+on an object of 1 m."""
+HINGE = 0.03
+"""Share of a front's width that its axis may lie off the hinge side."""
+KNUCKLE = 0.006
+"""m; butt hinges turn about a knuckle beside the front."""
+PARALLEL = np.cos(np.radians(0.1))
+TOUCH = 0.002
+"""Share of the diagonal between a handle and its front."""
+LEAST = 0.005
+"""Share by which another state may be more compact than rest."""
+ENGAGED = 0.9
+"""Share of its length that a drawer may travel."""
+HELD = 0.1
+"""Least share of a drawer's box inside the base's box when it is open."""
+FLAT = 1e-14
+"""m2; half of a square of the vertex grid."""
+UNEVEN = 0.25
+"""Greatest coefficient of variation of texel density over the faces of one material."""
+RATIO = (0.8, 1.25)
+"""Of the median texel density of a part to that of all parts."""
+STRETCH = 1.2
+"""Greatest factor between the stretch of a fitted front and of its donor, 95th percentile."""
+MORE_OPEN = 1.25
+"""Factor by which parts that are all open at once may share more than the template's own do."""
+STATES = 9
+Overlapped = Mapping[tuple[str, ...], float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Broken:
+    """An invariant that does not hold."""
+
+    number: int
+    part: str
+    value: str
+    bound: str
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Case:
+    """An object beside its template and the sources of its parts, by id."""
+
+    new: Assembled
+    template: Source
+    sources: Mapping[str, Source]
+
+    @property
+    def shift(self) -> Floats:
+        """(3,) from the template's frame to the object's: the base is the same in both."""
+        base = self.new.parts[0][2]
+        return np.asarray(base.bounds[0] - self.template.base.bounds[0])
+
+    @property
+    def diagonal(self) -> float:
+        """Of the object at rest, m."""
+        boxes = np.array([piece.bounds for _, _, piece in self.new.parts])
+        return float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)))
+
+    @property
+    def filled(self) -> Iterator[tuple[Member, Joint, Piece]]:
+        """Each filled part: the template's, its joint in the object, its fitted body."""
+        joints = {joint.child: joint for joint in self.new.joints}
+        for member in self.template.members:
+            if member.name in self.new.seams:
+                body = self.new.layer(member.name, "body")
+                if body is not None:
+                    yield member, joints[member.name], body
+
+
+def tree(case: Case) -> Iterator[Broken]:
+    """1: the kinematic tree is the template's, with labels and kinds of joints."""
+    names = {self.name: self.label for self in case.template.members}
+    labels = {case.template.base_name: "base", **names}
+    joints = case.template.joints
+    found = case.new.hashes["tree"]
+    if found != (wanted := tree_hash(labels, joints, case.template.base_name)):
+        yield Broken(number=1, part="object", value=found, bound=wanted)
+
+
+def boxes(case: Case) -> Iterator[Broken]:
+    """2: the box of every fitted body is that of its slot."""
+    for member, _, body in case.filled:
+        off = float(np.abs(body.bounds - member.body.bounds - case.shift).max())
+        if off > BOX * case.diagonal + 1e-7:
+            yield _broken(2, member, off, f"<= {BOX * case.diagonal:.2g} m")
+
+
+def hinges(case: Case) -> Iterator[Broken]:
+    """3: a hinge lies along the edge that it lay on, and opening moves the front outward."""
+    for member, joint, body in case.filled:
+        if member.side not in ("left", "right", "bottom", "top"):
+            continue
+        along, across = (2, 0) if member.side in ("left", "right") else (0, 2)
+        end = 0 if member.side in ("left", "bottom") else 1
+        width = float(np.ptp(body.bounds[:, across]))
+        off = abs(joint.origin[across] - body.bounds[end, across])
+        if off > HINGE * width + KNUCKLE or abs(joint.axis[along]) < PARALLEL:
+            yield _broken(3, member, off, f"<= {HINGE * width + KNUCKLE:.3g} m, along the edge")
+        if joint.limit is None or _way_out(body, joint, joint.limit.upper / 2.0) <= 0.0:
+            yield _broken(3, member, "opens inward", "the middle of the front moves to -y")
+
+
+def _way_out(body: Piece, joint: Joint, q: float) -> float:
+    """How far the middle of a body has moved toward -y at a state, m."""
+    middle = body.bounds.mean(axis=0)[None]
+    pose = forward_kinematics(joint.parent, [joint], {joint.name: q})[joint.child]
+    return float((middle - apply(pose, middle))[0, 1])
+
+
+def handles(case: Case) -> Iterator[Broken]:
+    """4: a handle stands out before its front, touches it, lies within its sides and, on a door,
+    on the half away from the hinge."""
+    for member, _, body in case.filled:
+        handle = case.new.layer(member.name, "handle")
+        if handle is None:
+            continue
+        box, front = handle.bounds, body.bounds
+        if (box[0, [0, 2]] < front[0, [0, 2]]).any() or (box[1, [0, 2]] > front[1, [0, 2]]).any():
+            yield _broken(4, member, "wider than its front", "within the sides of its front")
+        if box[0, 1] >= front[0, 1]:
+            yield _broken(4, member, "does not stand out", "before the front")
+        share = float((box[:, 0].mean() - front[0, 0]) / np.ptp(front[:, 0]))
+        from_hinge = {"left": share, "right": 1.0 - share}.get(member.side, 1.0)
+        if from_hinge < 0.5 - 1e-6:
+            yield _broken(4, member, from_hinge, ">= 0.5 of the width from the hinge")
+        gap = _gap(handle, body)
+        if gap > TOUCH * case.diagonal:
+            yield _broken(4, member, gap, f"<= {TOUCH * case.diagonal:.2g} m from its front")
+
+
+def _gap(handle: Piece, body: Piece) -> float:
+    """From the foot of a handle to the nearest point of its front, m."""
+    points = handle.mesh.vertices
+    foot = points[points[:, 1] > points[:, 1].max() - 1e-6]
+    return min(nearest_distance(body.mesh.triangles, point) for point in foot)
+
+
+def rest(case: Case) -> Iterator[Broken]:
+    """5: rest is closed: no state of a joint makes the object's box smaller, and what closes opens
+    one way."""
+    pieces = {name: piece for name, _, piece in case.new.parts}
+    labels = {name: label for name, label, _ in case.new.parts}
+    for joint in case.new.joints:
+        if joint.limit is None or joint.mimic is not None or not ROLES[labels[joint.child]].closes:
+            continue
+        if joint.limit.lower != 0.0:
+            yield Broken(number=5, part=joint.child, value=f"{joint.limit.lower}", bound="from 0")
+        states = np.linspace(joint.limit.lower, joint.limit.upper, STATES).tolist()
+        volumes = [_volume(case.new, pieces, {joint.name: q}) for q in states]
+        if min(volumes) < _volume(case.new, pieces, {}) * (1.0 - LEAST):
+            yield Broken(number=5, part=joint.child, value="more compact open", bound="least at 0")
+
+
+def _volume(new: Assembled, pieces: Mapping[str, Piece], state: State) -> float:
+    """Of the box around all parts at a state, m3."""
+    poses = forward_kinematics(new.parts[0][0], new.joints, state)
+    corners = [apply(poses[name], piece.mesh.vertices) for name, piece in pieces.items()]
+    points = np.concatenate(corners)
+    return float(np.ptp(points, axis=0).prod())
+
+
+def clear(case: Case) -> Iterator[Broken]:
+    """6: parts do not pass through each other on the way of any joint, nor all open at once more
+    than the template's own do."""
+    allowed = shipped_bounds().overlap.value
+    shapes = {name: shape_of_mesh(piece.mesh) for name, piece in _named(case.new)}
+    base, joints = case.new.parts[0][0], case.new.joints
+    for crossing in crossings(base, joints, case.new.preconditions, shapes):
+        if crossing.overlap.volume > allowed:
+            pair = f"{crossing.overlap.first}, {crossing.overlap.second}"
+            value = f"{crossing.overlap.volume:.3g} m3"
+            yield Broken(number=6, part=pair, value=value, bound=f"<= {allowed:g} m3")
+    own = {m.name: shape_of_mesh(_all_of(m)) for m in case.template.members}
+    own[case.template.base_name] = shape_of_mesh(case.template.base.mesh)
+    before = _all_open(case.template.base_name, case.template.joints, own)
+    after = _all_open(base, joints, shapes)
+    for names, volume in after.items():
+        if volume > before.get(names, 0.0) * MORE_OPEN + allowed:
+            value, bound = f"{volume:.3g} m3", f"{before.get(names, 0.0):.3g} m3 of the template"
+            yield Broken(number=6, part=", ".join(names), value=value, bound=bound)
+
+
+def engaged(case: Case) -> Iterator[Broken]:
+    """7: what slides out stays in its rails."""
+    for member, joint, _ in case.filled:
+        if member.side != "out" or joint.limit is None:
+            continue
+        box = case.new.piece(member.name).bounds
+        length = float(np.ptp(box[:, 1]))
+        if joint.limit.upper > ENGAGED * length:
+            yield _broken(7, member, joint.limit.upper / length, f"<= {ENGAGED} of its length")
+        out = box + np.multiply(joint.limit.upper, joint.axis)
+        base = case.new.parts[0][2].bounds
+        shared = (np.minimum(out[1], base[1]) - np.maximum(out[0], base[0])).clip(min=0.0).prod()
+        if shared < HELD * np.diff(box, axis=0).prod():
+            yield _broken(7, member, float(shared), f">= {HELD} of its box within the base")
+
+
+def sound(case: Case) -> Iterator[Broken]:
+    """9: no triangle twice or without area, every body outward."""
+    for name, piece in _named(case.new):
+        a, b, c = piece.mesh.triangles.transpose(1, 0, 2)
+        least = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).min()) / 2.0
+        if least < FLAT:
+            yield Broken(number=9, part=name, value=f"{least:.2g} m2", bound=f">= {FLAT:g} m2")
+        if count := repeated(piece.mesh.faces):
+            yield Broken(number=9, part=name, value=f"{count} triangles twice", bound="0")
+        if body_volumes(piece.mesh).min() <= 0.0:
+            yield Broken(number=9, part=name, value="a body winds inward", bound="outward")
+
+
+def textured(case: Case) -> Iterator[Broken]:
+    """10: texture is as dense on all faces of a material, on all parts, and no more stretched than
+    on the donors."""
+    for surface, spread in by_surface(case.new).items():
+        if spread > UNEVEN:
+            value, bound = f"{spread:.3f}", f"variation of density <= {UNEVEN}"
+            yield Broken(number=10, part=surface, value=value, bound=bound)
+    medians = part_medians(case.new)
+    middle = float(np.median(list(medians.values())))
+    for name, median in medians.items():
+        if not RATIO[0] <= median / middle <= RATIO[1]:
+            value, bound = f"{median / middle:.3f}", f"density {RATIO[0]} to {RATIO[1]} of others"
+            yield Broken(number=10, part=name, value=value, bound=bound)
+    for entry in case.new.sources:
+        if entry["piece"] == "handle":
+            continue
+        donor = _donor(case, entry)
+        body = case.new.layer(str(entry["part"]), "body")
+        if body is None:
+            continue
+        weights = areas(donor.body.mesh.triangles)  # Faces are the same ones, in the same order.
+        now, was = stretch(body.mesh, weights), stretch(donor.body.mesh, weights)
+        if now > STRETCH * was:
+            value, bound = f"{now:.3f}", f"stretch <= {STRETCH} x {was:.3f}"
+            yield Broken(number=10, part=str(entry["part"]), value=value, bound=bound)
+
+
+def kept_roles(case: Case) -> Iterator[Broken]:
+    """11: panes stay panes and mirrors stay mirrors."""
+    for entry in case.new.sources:
+        if entry["piece"] == "handle":
+            continue
+        source, donor = case.sources[str(entry["source"])], _donor(case, entry)
+        body = case.new.layer(str(entry["part"]), "body")
+        if body is None:
+            continue
+        was = {stuff_of(source.surfaces[k]) for k in donor.body.slots} & {"glass", "mirror"}
+        now = {stuff_of(case.new.surfaces[k]) for k in body.slots} & {"glass", "mirror"}
+        if was != now:
+            value, bound = str(sorted(now)), str(sorted(was))
+            yield Broken(number=11, part=str(entry["part"]), value=value, bound=bound)
+
+
+def licensed(case: Case) -> Iterator[Broken]:
+    """15: every filled part names its source, and the licence is the most restrictive of them."""
+    named = {str(entry["part"]) for entry in case.new.sources if entry["piece"] != "handle"}
+    for member, _, _ in case.filled:
+        own = member.name not in named
+        if own and not case.new.layer(member.name, "body"):
+            yield _broken(15, member, "no source", "a source")
+    used = {str(entry["source"]) for entry in case.new.sources} | {case.template.id}
+    wanted = most_restrictive(case.sources[id].licence for id in used)
+    if case.new.licence != wanted:
+        yield Broken(number=15, part="object", value=case.new.licence.id, bound=wanted.id)
+
+
+def held_out(case: Case) -> Iterator[Broken]:
+    """16: template and donors are of one split."""
+    used = {str(entry["source"]) for entry in case.new.sources} | {case.template.id}
+    families = {case.sources[id].family for id in used}
+    if missing := families - set(case.new.donors):
+        value = f"{sorted(missing)} not listed"
+        yield Broken(number=16, part="object", value=value, bound="every family among the donors")
+    if split_of("", case.new.donors) is None:
+        yield Broken(number=16, part="object", value="two splits", bound="one split")
+
+
+def _all_open(base: str, joints: Sequence[Joint], shapes: Mapping[str, Shape]) -> Overlapped:
+    """Pairs of parts and what they share with every joint at its upper end, m3."""
+    state = {j.name: j.limit.upper for j in joints if j.limit is not None and j.mimic is None}
+    poses = forward_kinematics(base, joints, state)
+    movers = [
+        Mover(name=name, shape=shape, poses=poses[name][None]) for name, shape in shapes.items()
+    ]
+    found: dict[tuple[str, ...], float] = {}
+    for overlap in overlaps(movers):
+        pair = tuple(sorted((overlap.first, overlap.second)))
+        found[pair] = max(found.get(pair, 0.0), overlap.volume)
+    return found
+
+
+def _all_of(member: Member) -> TriMesh:
+    return joined(member.pieces).mesh
+
+
+def _broken(number: int, member: Member, value: float | str, bound: str) -> Broken:
+    told = value if isinstance(value, str) else f"{value:.4g}"
+    return Broken(number=number, part=member.name, value=told, bound=bound)
+
+
+Check = Callable[[Case], Iterator[Broken]]
+OF_OBJECTS: tuple[Check, ...] = (
+    tree,
+    boxes,
+    hinges,
+    handles,
+    rest,
+    clear,
+    engaged,
+    sound,
+    textured,
+    kept_roles,
+    licensed,
+    held_out,
+)
+
+
+def broken(case: Case) -> list[Broken]:
+    """All that does not hold of one object."""
+    return [found for check in OF_OBJECTS for found in check(case)]
+
+
+def _named(new: Assembled) -> list[tuple[str, Piece]]:
+    return [(name, piece) for name, _, piece in new.parts]
+
+
+def _donor(case: Case, entry: Mapping[str, object]) -> Member:
+    members = case.sources[str(entry["source"])].members
+    return next(member for member in members if member.name == entry["of"])
