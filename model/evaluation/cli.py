@@ -5,6 +5,7 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -12,12 +13,13 @@ import tyro
 from rich.console import Console
 from rich.table import Table
 
-from artgen.core.errors import UsageError
+from artgen.core.errors import UsageError, did_you_mean
 from artgen.core.jsonio import plain, write_bytes, write_json
 from artgen.progress import progress
 from artgen.run_folder import locked
 from model.evaluation.adapters.formats import Place, places
 from model.evaluation.metrics import HEADLINES, METRICS
+from model.evaluation.records import picture_path
 from model.evaluation.report import SHOWN, Report, interval, page, ranking, shown
 from model.evaluation.score import Align, Protocol, Record
 from model.evaluation.summary import Summary, summary
@@ -27,26 +29,42 @@ FormatName = Literal[
     "auto", "bundle", "urdf", "urdformer", "singapo", "paris", "dta", "artgs", "two_states"
 ]
 SCHEMA = "artgen-evaluation-run/1"
+BASELINES = ("mean", "pixels", "conv", "efflite0")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Evaluate:
-    """Score reconstructions of any system against the truth.
+    """Score reconstructions of any system, a trained network or a baseline against the truth.
 
-    PREDICTIONS and --truth are folders that hold an object in each of their folders; an object's
-    name is a bundle's asset id or the folder's name, and must be the same in both. Known layouts:
-    artgen bundles, any URDF, URDFormer's URDF, SINGAPO's object.json, the meshes and joints of
-    PARIS, Digital Twin Art and ArtGS, and their ground truth. PNGs in a folder `images` beside an
-    object are compared with the true ones of the same name.
+    A folder of PREDICTIONS is compared with a folder of true objects: each holds an object in each
+    of its folders; an object's name is a bundle's asset id or the folder's name, and must be the
+    same in both. Known layouts: artgen bundles, any URDF, URDFormer's URDF, SINGAPO's object.json,
+    the meshes and joints of PARIS, Digital Twin Art and ArtGS, and their ground truth. PNGs in a
+    folder `images` beside an object are compared with the true ones of the same name.
+
+    A network file, or a baseline's name (mean: the mean layout; pixels, conv, efflite0: the nearest
+    training object by images or by an encoder's features), is judged on held-out objects of a
+    library (artgen train-data) or of shards, at views and in a state that it was not shown.
 
     Writes evaluation.json, report.html and objects/, one record an object; the same command again
     scores only what changed. What each metric means: docs/evaluation.md.
+
+    For example:
+
+    artgen evaluate out/reconstructions --truth out/assets
+
+    artgen evaluate singapo_results --truth out/assets --align uniform
+
+    artgen evaluate art.safetensors --truth library.npz
+
+    artgen evaluate mean --train library.npz --truth library.npz --out out/evaluation_mean
     """
 
-    predictions: Annotated[Path, tyro.conf.Positional]
-    """Folder of predicted objects."""
+    predictions: Annotated[str, tyro.conf.arg(metavar="PREDICTIONS"), tyro.conf.Positional]
+    """Folder of predicted objects, network file, or name of a baseline."""
     truth: Path
-    """Folder of true objects, such as out/assets."""
+    """Folder of true objects, such as out/assets; for networks and baselines a library or shards.
+    """
     format: FormatName = "auto"
     """Layout of the predictions; told by their files if auto. A URDF whose front is +x, as
     URDFormer's, needs to be told."""
@@ -70,21 +88,44 @@ class Evaluate:
     gates: bool = True
     """Whether bundles and URDFs are loaded and driven in MuJoCo."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
-    """Processes side by side."""
+    """Processes side by side, for folders."""
+    train: Path | None = None
+    """Library or shards that a baseline learns from; of these the split train."""
+    split: Literal["train", "val", "test", "all"] = "test"
+    """Which objects of a library or of shards networks and baselines are judged on."""
+    count: int = 100
+    """At most so many held-out objects, and so many training objects of a baseline."""
+    count_parts: bool = False
+    """Let the network count the parts; else it is told how many, as the paper's is."""
+    resolution: int = 48
+    """Cells of marching cubes along a part, for a network's surfaces; 0 makes none."""
+    samples: int = 48
+    """Samples a ray, for a network's images; 0 renders none."""
+    views: int = 4
+    """Views a state that a baseline is shown; a network states its own."""
+    pixels: int = 48
+    """Side of the images that a baseline is shown."""
 
 
 def evaluate(argv: Sequence[str]) -> int:
     """Score predictions of any system: one JSON, one page with pictures."""
     command = tyro.cli(Evaluate, args=list(argv), prog="artgen evaluate")
     protocol = checked_protocol(command)
+    judge = judged_folder if Path(command.predictions).is_dir() else judged_network
+    report = judge(command, protocol)
+    announce(report.summary, command.out)
+    return 0
+
+
+def judged_folder(command: Evaluate, protocol: Protocol) -> Report:
+    """A folder of predictions."""
+    folder = Path(command.predictions)
     true = places(command.truth, command.truth_format)
-    predicted = places(command.predictions, command.format)
-    missing = sorted(set(true) - set(predicted))
-    if len(missing) == len(true):
+    predicted = places(folder, command.format)
+    if not set(true) & set(predicted):
         raise UsageError(
-            f"no object of {command.truth} is among {command.predictions}: "
-            f"{_some(sorted(true))} against {_some(sorted(predicted))}; name predictions as the "
-            "true objects are named"
+            f"no object of {command.truth} is among {folder}: {_some(sorted(true))} against "
+            f"{_some(sorted(predicted))}; name predictions as the true objects are named"
         )
     with run_folder(command.out, stated_run(command, protocol)):
         tasks = [
@@ -99,18 +140,55 @@ def evaluate(argv: Sequence[str]) -> int:
             for name in sorted(true)
         ]
         records = scored_with_progress(tasks, command.workers)
-        report = Report(
-            system=command.system or command.predictions.name,
-            truth=str(command.truth),
-            protocol=protocol,
-            records=records,
-            summary=summary(records),
-            notes=notes(predicted, true),
-            pictures=pictures(command.out / "objects", records),
+        return written(command, protocol, records, notes(predicted, true))
+
+
+def judged_network(command: Evaluate, protocol: Protocol) -> Report:
+    """A network or a baseline; torch is imported here, as most commands do without."""
+    if not Path(command.predictions).is_file() and command.predictions not in BASELINES:
+        raise UsageError(
+            f"{command.predictions} is no folder, no network file and no baseline"
+            f"{did_you_mean(command.predictions, BASELINES)}; baselines are {', '.join(BASELINES)}"
         )
-        write_report(command.out, report)
-    announce(report.summary, command.out)
-    return 0
+    if min(command.count, command.views) < 1 or min(command.resolution, command.samples) < 0:
+        raise UsageError("--count and --views are at least 1, --resolution and --samples 0")
+    asked = {
+        "predictions": command.predictions,
+        "truth": command.truth,
+        "train": command.train,
+        "split": None if command.split == "all" else command.split,
+        "count": command.count,
+        "states": 2,
+        "views": command.views,
+        "pixels": command.pixels,
+        "counts": command.count_parts,
+        "resolution": command.resolution,
+        "samples": command.samples,
+    }
+    module = import_module("model.evaluation.network_run")
+    with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):
+        run = module.NetworkRun(**asked)
+        records = module.run(run, protocol, command.out / "objects")
+        told = f"Held-out objects: split {command.split}, at most {command.count}."
+        return written(command, protocol, records, [told])
+
+
+def written(
+    command: Evaluate, protocol: Protocol, records: Sequence[Record], said: Sequence[str]
+) -> Report:
+    """The report, as it stands in `--out`."""
+    report = Report(
+        system=command.system or Path(command.predictions).name,
+        truth=str(command.truth),
+        protocol=protocol,
+        records=records,
+        summary=summary(records),
+        notes=said,
+        pictures=pictures(command.out / "objects", records),
+    )
+    write_json(command.out / "evaluation.json", report.as_json())
+    write_bytes(command.out / "report.html", page(report).encode())
+    return report
 
 
 def checked_protocol(command: Evaluate) -> Protocol:
@@ -133,7 +211,7 @@ def stated_run(command: Evaluate, protocol: Protocol) -> Mapping[str, object]:
     """What a folder of results belongs to."""
     return {
         "schema": SCHEMA,
-        "predictions": str(command.predictions),
+        "predictions": command.predictions,
         "truth": str(command.truth),
         "protocol": plain(protocol),
     }
@@ -161,7 +239,11 @@ def run_folder(folder: Path, stated: Mapping[str, object]) -> Iterator[None]:
         elif others:
             raise UsageError(f"{folder} holds {_some(others)} already; choose another --out")
         write_json(record, stated)
-        yield
+        try:
+            yield
+        finally:
+            if {path.name for path in folder.iterdir()} <= {".lock", record.name}:
+                record.unlink()  # Nothing was found, so the folder is anyone's.
 
 
 def scored_with_progress(tasks: Sequence[Task], workers: int) -> list[Record]:
@@ -188,16 +270,10 @@ def pictures(folder: Path, records: Sequence[Record]) -> dict[str, bytes]:
     wanted = {record.name for record in (*ranked[:SHOWN], *ranked[-SHOWN:])}
     found = {}
     for name in wanted:
-        path = folder / f"{name.replace('/', '__')}.png"
+        path = picture_path(folder, name)
         if path.is_file():
             found[name] = path.read_bytes()
     return found
-
-
-def write_report(out: Path, report: Report) -> None:
-    """evaluation.json and report.html."""
-    write_json(out / "evaluation.json", report.as_json())
-    write_bytes(out / "report.html", page(report).encode())
 
 
 def announce(found: Summary, out: Path) -> None:

@@ -132,6 +132,7 @@ METRICS: Mapping[str, Metric] = {
     **_under("paris", _PARIS),
     **_matched("masks", _MASKS),
     **_under("images", _IMAGES),
+    **_under("images.new_state", _IMAGES),
     **_under("gates", _GATES),
 }  # fmt: skip
 

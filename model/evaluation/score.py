@@ -100,9 +100,13 @@ def score(
     protocol: Protocol,
     *,
     gates: Gates | None = None,
-    images: Sequence[ImageScores] = (),
+    images: Mapping[str, Sequence[ImageScores]] | None = None,
 ) -> Record:
-    """Every metric of one object that can be asked."""
+    """Every metric of one object that can be asked.
+
+    Args:
+        images: `images` or `images.new_state` to the scores of such images.
+    """
     found: Values = {
         "parts.count_right": [float(len(predicted) == len(true))],
         "parts.count_error": [float(abs(len(predicted) - len(true)))],
@@ -122,8 +126,9 @@ def score(
     found["singapo.honest.aor_true"] = [overlap_ratio(true)]
     _put_particulate(found, particulate(predicted, true, points=protocol.part_points))
     _put_surfaces(found, predicted, true, protocol)
-    for image in images:
-        _put(found, "images", asdict(image))
+    for prefix, own in (images or {}).items():
+        for image in own:
+            _put(found, prefix, asdict(image))
     if gates is not None:
         held = {key: value for key, value in asdict(gates).items() if key != "reasons"}
         _put(found, "gates", {**held, "passed": gates.passed})

@@ -1,16 +1,15 @@
 """Objects scored side by side in processes; each leaves a record, so that a run resumes."""
 
-import json
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
 from artgen.core.errors import ArtgenError
-from artgen.core.jsonio import content_hash, file_hash, write_bytes, write_json
+from artgen.core.jsonio import content_hash, file_hash, write_bytes
 from artgen.core.mesh import Floats
 from artgen.export.layout import MANIFEST
 from artgen.pool import run_in_processes
@@ -18,12 +17,11 @@ from artgen.validate.subject import Source
 from model.evaluation.adapters.formats import FORMATS, Place
 from model.evaluation.gates import gates
 from model.evaluation.images import ImageScores, image_scores, over_white
-from model.evaluation.joints import JointErrors
 from model.evaluation.layout import Layout
 from model.evaluation.pictures import strip
+from model.evaluation.records import SCHEMA, keep_record, kept_record, picture_path
 from model.evaluation.score import Protocol, Record, failed, score
 
-SCHEMA = "artgen-evaluation-object/1"
 TASK_TIMEOUT_S = 900.0
 SIMULATED = {"bundle": "bundle", "urdf": "urdf", "urdformer": "urdf"}
 """Format of a prediction to the format that the gates read; others state no simulation."""
@@ -53,11 +51,6 @@ class Task:
         return self.name
 
     @property
-    def stem(self) -> str:
-        """The name as a file's name."""
-        return self.name.replace("/", "__")
-
-    @property
     def key(self) -> str:
         """What the record depends on."""
         places = [self.predicted, self.true]
@@ -77,7 +70,7 @@ def scored(tasks: Sequence[Task], *, workers: int) -> Iterator[Record]:
     """A record for every task, kept ones first and the others as they come."""
     waiting = []
     for task in tasks:
-        kept = _kept(task)
+        kept = kept_record(task.folder, task.name, task.key)
         if kept is None:
             waiting.append(task)
         else:
@@ -104,8 +97,7 @@ def work(task: Task) -> Record:
     """Score one object, and keep its record and picture."""
     true = replace(task.true.read(), name=task.name)
     record = _record(task, true)
-    body = {"schema": SCHEMA, "key": task.key, "record": asdict(record)}
-    write_json(task.folder / f"{task.stem}.json", body)
+    keep_record(task.folder, record, task.key)
     return record
 
 
@@ -117,9 +109,9 @@ def _record(task: Task, true: Layout) -> Record:
     except ArtgenError as error:
         return failed(true, str(error))
     held = gates(_source(task.predicted)) if task.gated and _simulated(task.predicted) else None
-    images = list(image_pairs(task.predicted, task.true))
+    images = {"images": list(image_pairs(task.predicted, task.true))}
     record = score(predicted, true, task.protocol, gates=held, images=images)
-    write_bytes(task.folder / f"{task.stem}.png", strip(predicted, true))
+    write_bytes(picture_path(task.folder, task.name), strip(predicted, true))
     return record
 
 
@@ -152,22 +144,3 @@ def _rgba(path: Path) -> Floats:
 
 def _lost(task: Task, why: str) -> Record:
     return Record(name=task.name, category="", parts=0, failure=why)
-
-
-def _kept(task: Task) -> Record | None:
-    """The record of an earlier run, where nothing that it depends on has changed."""
-    path = task.folder / f"{task.stem}.json"
-    try:
-        stated = json.loads(path.read_text(encoding="utf-8"))
-        if stated["schema"] != SCHEMA or stated["key"] != task.key:
-            return None
-        return record_from_json(stated["record"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
-
-
-def record_from_json(stated: dict[str, object]) -> Record:
-    """The record that `asdict` told."""
-    rows = stated.pop("joints")
-    joints = tuple(JointErrors(**row) for row in rows)  # type: ignore[attr-defined]
-    return Record(**stated, joints=joints)  # type: ignore[arg-type]

@@ -14,12 +14,13 @@ from tests.unit.model.evaluation.layouts import cabinet, with_box_meshes
 from tests.unit.model.evaluation.test_images import ALL, GRAY
 
 QUICK = Protocol(points=500, part_points=500, mask_pixels=24)
-ASKED_ELSEWHERE = ("gates.", "images.lpips")
+ASKED_ELSEWHERE = ("gates.", "images.lpips", "images.new_state.lpips")
 
 
 def test_the_truth_scores_best_in_everything() -> None:
     truth = with_box_meshes(cabinet())
-    images = [image_scores(GRAY, GRAY, ALL, ALL)]
+    own = [image_scores(GRAY, GRAY, ALL, ALL)]
+    images = {"images": own, "images.new_state": own}
     record = score(truth, truth, QUICK, images=images)
     assert {
         n for n in METRICS if n not in record.metrics if not n.startswith(ASKED_ELSEWHERE)

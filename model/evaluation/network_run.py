@@ -1,0 +1,176 @@
+"""Networks and baselines judged on held-out objects of a library or of shards."""
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+
+from artgen.core.errors import ArtgenError, UsageError
+from artgen.core.jsonio import content_hash, file_hash, write_bytes
+from artgen.core.stream import Stream
+from artgen.dataset.split import Split
+from artgen.progress import progress
+from model.art_file import load_art
+from model.config import Config
+from model.data.config import DataConfig
+from model.data.items import Source
+from model.data.library import read_library
+from model.data.shards import ShardSource
+from model.data.soup_source import SoupSource
+from model.encoders.registry import make_encoder
+from model.evaluation.baselines import NearestNeighbor, mean_layouts
+from model.evaluation.held_out import CPU, HeldOut, held_out, held_out_config
+from model.evaluation.pictures import strip
+from model.evaluation.predictions import layout_of
+from model.evaluation.predictors import (
+    ArtPredictor,
+    MeanPredictor,
+    NeighborPredictor,
+    Predictor,
+    feature_of,
+)
+from model.evaluation.records import keep_record, kept_record, picture_path
+from model.evaluation.score import Protocol, Record, failed, score
+
+LEAST_PX = 16
+"""Images that nobody looks at are made as small as this."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class NetworkRun:
+    """What is judged, on what.
+
+    Attributes:
+        predictions: a network file, `mean`, `pixels`, or the name of an encoder.
+        truth: a library file, or a folder of shards.
+        train: the same for baselines to learn from.
+        split: of the truth; None takes all. Baselines learn from `train`.
+        count: objects at most, of the truth and of the training objects each.
+        states, views, pixels: what baselines are shown; a network states its own.
+        counts, resolution, samples: as `ArtPredictor`.
+    """
+
+    predictions: str
+    truth: Path
+    train: Path | None
+    split: Split | None
+    count: int
+    states: int
+    views: int
+    pixels: int
+    counts: bool
+    resolution: int
+    samples: int
+
+
+def run(asked: NetworkRun, protocol: Protocol, folder: Path) -> list[Record]:
+    """A record for every held-out object; those that are kept in `folder` are not made again."""
+    torch.set_grad_enabled(False)
+    predictor, config = made_predictor(asked)
+    source = opened(asked.truth, asked.split, config.slots)
+    key = run_key(asked, protocol)
+    records = []
+    total = min(asked.count, len(source))
+    with progress("objects", total) as advance:
+        for item in held_out(source, config, count=asked.count, seed=protocol.seed):
+            record = kept_record(folder, item.name, key)
+            if record is None:
+                record = judged(predictor, item, protocol, folder)
+                keep_record(folder, record, key)
+            records.append(record)
+            advance(record.name)
+    return records
+
+
+def judged(predictor: Predictor, item: HeldOut, protocol: Protocol, folder: Path) -> Record:
+    """Predict and score one object, and keep its picture."""
+    try:
+        guess = predictor(item)
+    except ArtgenError as error:
+        return failed(item.layout, str(error))
+    write_bytes(picture_path(folder, item.name), strip(guess.layout, item.layout))
+    return score(guess.layout, item.layout, protocol, images=guess.images)
+
+
+def run_key(asked: NetworkRun, protocol: Protocol) -> str:
+    """What records depend on."""
+    files = [Path(asked.predictions), asked.truth, asked.train]
+    hashes = [file_hash(own) for own in files if own is not None and own.is_file()]
+    return content_hash([dataclasses.asdict(asked), protocol, hashes])
+
+
+def opened(place: Path, split: Split | None, slots: int) -> Source[Any]:
+    """The objects of a library file, or of a folder of shards.
+
+    Raises:
+        UsageError: there is neither.
+    """
+    if place.is_file():
+        return SoupSource(read_library(place), split=split, slots=slots)
+    if place.is_dir():
+        return ShardSource(place, split=split, slots=slots)
+    raise UsageError(
+        f"{place} is neither a library of objects (artgen train-data) nor a folder of shards"
+    )
+
+
+def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
+    """Who predicts, and the data that is shown."""
+    path = Path(asked.predictions)
+    if path.is_file():
+        art, config, _ = load_art(path)
+        own = ArtPredictor(art, config, asked.counts, asked.resolution, asked.samples)
+        return own, shown_to(config)
+    if asked.train is None:
+        raise UsageError(
+            f"{asked.predictions} learns from training objects: name a library or shards by --train"
+        )
+    blind = asked.predictions == "mean"
+    data = baseline_data(asked.states, *((1, LEAST_PX) if blind else (asked.views, asked.pixels)))
+    source = opened(asked.train, "train", data.slots)
+    if blind:
+        items = training_items(source, data, asked.count)
+        return MeanPredictor(mean_layouts([layout for layout, _ in items])), data
+    encoder = (
+        None if asked.predictions == "pixels" else make_encoder(asked.predictions, frozen=True)
+    )
+    pairs = [(layout, feature_of(batch, encoder)) for layout, batch in
+             training_items(source, data, asked.count)]  # fmt: skip
+    features = torch.tensor([feature.tolist() for _, feature in pairs]).double().numpy()
+    neighbor = NearestNeighbor(features, [layout for layout, _ in pairs])
+    return NeighborPredictor(neighbor, encoder), data
+
+
+def baseline_data(states: int, views: int, pixels: int) -> DataConfig:
+    """What a baseline is shown."""
+    wide = pixels + pixels // 4
+    return DataConfig(states=states, views=views, input_px=pixels, render_px=wide, target_px=pixels)
+
+
+def shown_to(config: Config) -> DataConfig:
+    """The data that a network was trained on, as many states as it was shown."""
+    return dataclasses.replace(config.data, batch=1)
+
+
+def training_items(
+    source: Source[Any], config: DataConfig, count: int
+) -> Sequence[tuple[Any, Any]]:
+    """Layouts and batches of the training objects, one scene each."""
+    return list(_training_items(source, config, count))
+
+
+def _training_items(
+    source: Source[Any], config: DataConfig, count: int
+) -> Iterator[tuple[Any, Any]]:
+    narrow = held_out_config(config, extra=False)
+    total = min(count, len(source))
+    with progress("training objects", total) as advance:
+        for position in range(total):
+            stream = Stream(0, "evaluation", "training", position)
+            batch = source.batch([source.plan(position, narrow, stream)], narrow, CPU)
+            name, category = batch.asset_ids[0], batch.categories[0]
+            yield layout_of(batch.truth, 0, name=name, category=category), batch
+            advance(name)

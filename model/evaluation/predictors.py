@@ -1,0 +1,179 @@
+"""Who predicts: a trained network, or a baseline, behind one call.
+
+B objects, T states, V views, P part slots, H W pixels, digits a length.
+"""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import torch
+
+from artgen.core.errors import GeometryError
+from artgen.core.mesh import Floats, TriMesh
+from model.art import Art
+from model.batch import Articulation, Batch
+from model.config import Config
+from model.encoders.protocol import Encoder
+from model.evaluation.baselines import MeanLayout, NearestNeighbor, pixel_feature
+from model.evaluation.held_out import HeldOut, flips
+from model.evaluation.images import ImageScores, image_scores
+from model.evaluation.layout import Layout
+from model.evaluation.predictions import layout_of
+from model.extract import ColoredMesh, part_meshes
+from model.infer import predict
+from model.pictures import pictures
+from model.prediction import Prediction
+
+Images = dict[str, list[ImageScores]]
+
+
+@dataclass(frozen=True, eq=False)
+class Guess:
+    """What was predicted of one object, in radii, and how its images compare."""
+
+    layout: Layout
+    images: Images
+
+
+class Predictor(Protocol):
+    """Predicts from what is shown alone; `item.everything` serves to judge images."""
+
+    def __call__(self, item: HeldOut) -> Guess:
+        """The prediction of one object."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class MeanPredictor:
+    """The mean layout of the category and number of parts, which it is told."""
+
+    mean: MeanLayout
+
+    def __call__(self, item: HeldOut) -> Guess:
+        """Looks at no image."""
+        return Guess(self.mean.of(item.category, len(item.layout)), {})
+
+
+@dataclass(frozen=True, eq=False)
+class NeighborPredictor:
+    """The nearest training object; it is told the number of parts."""
+
+    neighbor: NearestNeighbor
+    encoder: Encoder | None
+
+    def __call__(self, item: HeldOut) -> Guess:
+        """Looks at all images that are shown."""
+        feature = feature_of(item.shown, self.encoder)
+        return Guess(self.neighbor.of(feature, len(item.layout)), {})
+
+
+def feature_of(batch: Batch, encoder: Encoder | None) -> Floats:
+    """(D,) of the one object of a batch: gray thumbnails of its images, or the means of an
+    encoder's maps over each of them."""
+    rgb_FCHW = batch.images.rgb_BTV3HW[0].flatten(0, 1)
+    if encoder is None:
+        return pixel_feature(rgb_FCHW.double().numpy())
+    with torch.inference_mode():
+        maps = encoder(rgb_FCHW)
+    return np.asarray(maps.mean(dim=(-1, -2)).flatten().double().numpy())
+
+
+@dataclass(frozen=True, eq=False)
+class ArtPredictor:
+    """A trained network.
+
+    Attributes:
+        counts: whether it counts the parts itself; else it is told, as the paper's is.
+        resolution: cells of marching cubes along a part; 0 makes no surfaces.
+        samples: a ray, for images; 0 renders none.
+    """
+
+    art: Art
+    config: Config
+    counts: bool
+    resolution: int
+    samples: int
+
+    def __call__(self, item: HeldOut) -> Guess:
+        """Looks at the images that are shown."""
+        parts = None if self.counts else len(item.layout)
+        prediction = predict(self.art, self.config, item.shown.images, parts=parts)
+        shaped = prediction.planes_BP6CHW is not None
+        meshes = None
+        if shaped and self.resolution:
+            found = part_meshes(
+                prediction.field(), prediction.articulation, resolution=self.resolution
+            )
+            meshes = surfaces(found)
+        layout = layout_of(
+            prediction.articulation, 0, name=item.name, category=item.category, meshes=meshes
+        )
+        images = self._images(prediction, item) if shaped and self.samples else {}
+        return Guess(layout, images)
+
+    def _images(self, prediction: Prediction, item: HeldOut) -> Images:
+        """Of views that were not shown, in the states that were and in those that were not.
+
+        A state that was not shown is reached by the true motion, its sign turned with the axis.
+        """
+        everything, seen = item.everything, item.shown.images.rgb_BTV3HW.shape[1:3]
+        cameras = everything.images
+        poses = cameras.camera_from_world_BTV44[:, :, seen[1] :]
+        if not poses.shape[2]:
+            return {}
+        height, width = cameras.rgb_BTV3HW.shape[-2:]
+        articulation = with_more_states(prediction.articulation, everything.truth)
+        made = pictures(
+            prediction.field(),
+            articulation,
+            cameras.intrinsics_BTV33[:, :, seen[1] :],
+            poses,
+            height=height,
+            width=width,
+            inverse_beta=self.config.train.inverse_beta[1],
+            samples=self.samples,
+        )
+        found: Images = {"images": [], "images.new_state": []}
+        for t in range(poses.shape[1]):
+            for v in range(poses.shape[2]):
+                own = found["images" if t < seen[0] else "images.new_state"]
+                true = everything.images
+                own.append(
+                    image_scores(
+                        _rows(made.over(1.0)[0, t, v]),
+                        _rows(true.rgb_BTV3HW[0, t, seen[1] + v]),
+                        made.alpha_BTVHW[0, t, v].numpy() > 0.5,
+                        true.alpha_BTVHW[0, t, seen[1] + v].numpy() > 0.5,
+                    )
+                )
+        return found
+
+
+def with_more_states(predicted: Articulation, true: Articulation) -> Articulation:
+    """The prediction in the states that it was shown and, by the true motion, in the others."""
+    slots, states = predicted.motion_BTP.shape[2], predicted.motion_BTP.shape[1]
+    more = true.motion_BTP[:, states:, :slots]
+    true_axes = dataclasses.replace(true, axis_BP3=true.axis_BP3[:, :slots])
+    signed = more * flips(predicted, true_axes)[:, None]
+    return dataclasses.replace(
+        predicted, motion_BTP=torch.cat([predicted.motion_BTP, signed], dim=1)
+    )
+
+
+def surfaces(found: Sequence[ColoredMesh]) -> dict[int, TriMesh]:
+    """Slot to its surface; slots whose surface has no triangle are left out."""
+    meshes = {}
+    for own in found:
+        try:
+            meshes[own.slot] = TriMesh(vertices=own.vertices, faces=own.faces)
+        except GeometryError:
+            continue
+    return meshes
+
+
+def _rows(image_3HW: torch.Tensor) -> Floats:
+    """(H, W, 3) in [0, 1]."""
+    return np.asarray(image_3HW.movedim(0, -1).double().numpy().clip(0.0, 1.0))
