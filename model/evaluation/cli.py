@@ -86,7 +86,7 @@ class Evaluate:
     handles: bool = True
     """Whether parts labelled `handle` count in SINGAPO's published metrics."""
     gates: bool = True
-    """Whether bundles and URDFs are loaded and driven in MuJoCo."""
+    """Whether bundles, URDFs and what a network predicts are loaded and driven in MuJoCo."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side, for folders."""
     train: Path | None = None
@@ -164,6 +164,7 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
         "counts": command.count_parts,
         "resolution": command.resolution,
         "samples": command.samples,
+        "gated": command.gates,
     }
     module = import_module("model.evaluation.network_run")
     with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):

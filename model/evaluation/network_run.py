@@ -50,7 +50,7 @@ class NetworkRun:
         split: of the truth; None takes all. Baselines learn from `train`.
         count: objects at most, of the truth and of the training objects each.
         states, views, pixels: what baselines are shown; a network states its own.
-        counts, resolution, samples: as `ArtPredictor`.
+        counts, resolution, samples, gated: as `ArtPredictor`.
     """
 
     predictions: str
@@ -64,6 +64,7 @@ class NetworkRun:
     counts: bool
     resolution: int
     samples: int
+    gated: bool
 
 
 def run(asked: NetworkRun, protocol: Protocol, folder: Path) -> list[Record]:
@@ -92,7 +93,7 @@ def judged(predictor: Predictor, item: HeldOut, protocol: Protocol, folder: Path
     except ArtgenError as error:
         return failed(item.layout, str(error))
     write_bytes(picture_path(folder, item.name), strip(guess.layout, item.layout))
-    return score(guess.layout, item.layout, protocol, images=guess.images)
+    return score(guess.layout, item.layout, protocol, images=guess.images, gates=guess.gates)
 
 
 def run_key(asked: NetworkRun, protocol: Protocol) -> str:
@@ -122,7 +123,7 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
     path = Path(asked.predictions)
     if path.is_file():
         art, config, _ = load_art(path)
-        own = ArtPredictor(art, config, asked.counts, asked.resolution, asked.samples)
+        own = ArtPredictor(art, config, asked.counts, asked.resolution, asked.samples, asked.gated)
         return own, shown_to(config)
     if asked.train is None:
         raise UsageError(

@@ -18,10 +18,12 @@ from model.batch import Articulation, Batch
 from model.config import Config
 from model.encoders.protocol import Encoder
 from model.evaluation.baselines import MeanLayout, NearestNeighbor, pixel_feature
+from model.evaluation.gates import Gates
 from model.evaluation.held_out import HeldOut, flips
 from model.evaluation.images import ImageScores, image_scores
 from model.evaluation.layout import Layout
 from model.evaluation.predictions import layout_of
+from model.evaluation.simulated import prediction_gates
 from model.extract import ColoredMesh, part_meshes
 from model.infer import predict
 from model.pictures import pictures
@@ -32,10 +34,11 @@ Images = dict[str, list[ImageScores]]
 
 @dataclass(frozen=True, eq=False)
 class Guess:
-    """What was predicted of one object, in radii, and how its images compare."""
+    """What was predicted of one object, in radii, how its images compare, and what MuJoCo says."""
 
     layout: Layout
     images: Images
+    gates: Gates | None = None
 
 
 class Predictor(Protocol):
@@ -89,6 +92,7 @@ class ArtPredictor:
         counts: whether it counts the parts itself; else it is told, as the paper's is.
         resolution: cells of marching cubes along a part; 0 makes no surfaces.
         samples: a ray, for images; 0 renders none.
+        gated: whether the object is put together and driven in MuJoCo.
     """
 
     art: Art
@@ -96,6 +100,7 @@ class ArtPredictor:
     counts: bool
     resolution: int
     samples: int
+    gated: bool
 
     def __call__(self, item: HeldOut) -> Guess:
         """Looks at the images that are shown."""
@@ -112,7 +117,11 @@ class ArtPredictor:
             prediction.articulation, 0, name=item.name, category=item.category, meshes=meshes
         )
         images = self._images(prediction, item) if shaped and self.samples else {}
-        return Guess(layout, images)
+        held = None
+        if self.gated:
+            radius = float(item.shown.radius_B[0])
+            held = prediction_gates(prediction, radius=radius, resolution=self.resolution)
+        return Guess(layout, images, held)
 
     def _images(self, prediction: Prediction, item: HeldOut) -> Images:
         """Of views that were not shown, in the states that were and in those that were not.

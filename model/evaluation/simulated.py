@@ -1,0 +1,53 @@
+"""What a network predicted, put together as `artgen reconstruct` does, and driven in MuJoCo."""
+
+import tempfile
+from pathlib import Path
+
+from artgen.core.errors import ArtgenError
+from artgen.export import layout
+from artgen.export.files import write_meshes
+from artgen.export.urdf import urdf_text
+from artgen.validate.subject import Source
+from model.evaluation.gates import Gates, gates
+from model.extract import part_meshes
+from model.prediction import Prediction
+from model.reconstruct.assemble import Wishes, assemble
+from model.reconstruct.guess import Surface, object_guess
+
+
+def prediction_gates(prediction: Prediction, *, radius: float, resolution: int) -> Gates:
+    """The gates of object 0 of a prediction; what cannot be put together does not load.
+
+    Args:
+        radius: m in one radius.
+        resolution: of marching cubes; 0 stands boxes for parts, as for a network without planes.
+    """
+    try:
+        guess = object_guess(
+            prediction.articulation, 0, _surfaces(prediction, radius, resolution), radius=radius
+        )
+        made = assemble(guess, Wishes()).object
+    except ArtgenError as error:
+        return Gates(
+            loads=False, stable=None, settles=None, opens=None, clear=None,
+            reasons={"loads": f"it cannot be put together: {error}"},
+        )  # fmt: skip
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        write_meshes(made, folder)
+        file = folder / layout.URDF
+        file.write_text(urdf_text(made), encoding="utf-8")
+        return gates(Source(format="urdf", file=file, root=folder))
+
+
+def _surfaces(prediction: Prediction, radius: float, resolution: int) -> dict[int, Surface]:
+    if prediction.planes_BP6CHW is None or not resolution:
+        return {}
+    found = part_meshes(
+        prediction.field(), prediction.articulation, resolution=resolution, radius=radius
+    )
+    return {
+        own.slot: (own.vertices, own.faces, own.rgb.astype(float))
+        for own in found
+        if not own.from_box
+    }
