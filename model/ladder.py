@@ -14,6 +14,7 @@ import torch
 from torch import Tensor
 
 from artgen.core.errors import ModelError
+from artgen.core.jsonio import plain
 from artgen.core.stream import Stream
 from artgen.progress import Show, silent
 from model.art import Art
@@ -21,10 +22,12 @@ from model.batch import FIXED, REVOLUTE, Batch, Rays
 from model.config import Config, LossWeights
 from model.objective import Objective, seen_along
 from model.prediction import Prediction
-from model.run_state import Run, begun
+from model.run_state import Run, begun, resume
 from model.schedule import Moment, moment_at
 from model.train import train
 
+SAVE_EVERY = 50
+"""Steps."""
 COLORS = LossWeights(part_rgb=10.0)
 """Everything."""
 JOINTS = dataclasses.replace(COLORS, part_rgb=0.0)
@@ -93,8 +96,8 @@ class Climbed:
 
 def climb(
     config: Config, batch: Batch, *, steps: int, rays: int, folder: Path, show: Show = silent
-) -> list[Climbed]:
-    """Learn one object by heart.
+) -> Iterator[Climbed]:
+    """Learn one object by heart; what was learned after every rung. Resumes in its folder.
 
     Args:
         batch: the object, with a multiple of the rays that one update needs; the last fifth of
@@ -105,15 +108,14 @@ def climb(
     torch.manual_seed(config.train.seed)
     art = Art(config.model)
     held, kept = divided(batch, config.train.seed)
-    found = []
     for rung in rungs(steps):
         settings = dataclasses.replace(
-            config.train, steps=rung.steps, forced=float(rung.forced), save_every=rung.steps
+            config.train, steps=rung.steps, forced=float(rung.forced), save_every=SAVE_EVERY
         )
-        run = begun(Objective(art, rung.weights), settings, items=1)
+        run = begun(Objective(art, rung.weights), settings, items=1, settings=plain(settings))
+        resume(run, folder / rung.name)
         train(run, Redrawn(held, rays).supply, folder=folder / rung.name, show=show)
-        found.append(measured(run, art, kept, rung))
-    return found
+        yield measured(run, art, kept, rung)
 
 
 def divided(batch: Batch, seed: int) -> tuple[Batch, Batch]:
