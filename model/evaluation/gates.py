@@ -25,6 +25,7 @@ class Gates:
         settles: in those two seconds no joint leaves rest by more than soft constraints give.
         opens: within its effort every joint goes through its whole range, and back.
         clear: no collision pieces of different parts meet at rest or on the way.
+        deepest: how far such pieces reach into each other at most, m; 0 where they are clear.
         reasons: gate to what was found against it, or to why it was not asked.
     """
 
@@ -33,6 +34,7 @@ class Gates:
     settles: bool | None
     opens: bool | None
     clear: bool | None
+    deepest: float | None = None
     reasons: dict[str, str]
 
     @property
@@ -43,7 +45,11 @@ class Gates:
 
 def gates(source: Source) -> Gates:
     """The gates of a bundle, URDF, MJCF or USD; a bad file fails them and never raises."""
-    subject = read_subject(source, shipped_bounds())
+    return subject_gates(read_subject(source, shipped_bounds()))
+
+
+def subject_gates(subject: Subject) -> Gates:
+    """The gates of an asset, however it is read."""
     reasons: dict[str, str] = {}
     loads = _held(subject, "loads", (structure.tree, structure.limits, models.compiles), reasons)
     if not loads:
@@ -56,19 +62,29 @@ def gates(source: Source) -> Gates:
     for name, items in (("stable", unstable), ("settles", drifting)):
         if items:
             reasons[name] = str(items[0])
-    clear: bool | None = None
-    if (lacking := subject.lacks("collision")) is None:
-        clear = _held(subject, "clear", (motion.collisions,), reasons)
-    else:
-        reasons["clear"] = lacking
+    clear, deepest = _clear(subject, reasons)
     return Gates(
         loads=True,
         stable=not unstable,
         settles=not drifting,
         opens=_held(subject, "opens", (driven.opens, driven.closes), reasons),
         clear=clear,
+        deepest=deepest,
         reasons=reasons,
     )
+
+
+def _clear(subject: Subject, reasons: dict[str, str]) -> tuple[bool | None, float | None]:
+    """Whether collision pieces keep apart, and how far they meet at most."""
+    if (lacking := subject.lacks("collision")) is not None:
+        reasons["clear"] = lacking
+        return None, None
+    findings = [f for f in _said(subject, (motion.collisions,)) if isinstance(f, Finding)]
+    if findings:
+        reasons["clear"] = str(findings[0])
+    depths = [f.value for f in findings if isinstance(f.value, float)]
+    deepest = max(depths, default=0.0) if len(depths) == len(findings) else None
+    return not findings, deepest
 
 
 Run = Callable[[Subject], Said]

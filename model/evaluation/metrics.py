@@ -91,7 +91,7 @@ _IMAGES = {
 _GATES = {
     name: Metric("share", "more", 0.0)
     for name in ("loads", "stable", "settles", "opens", "clear", "passed")
-}
+} | {"deepest": Metric("m", "less")}
 
 MATCHINGS = ("order", "nearest")
 """By order, and by Hungarian matching of box centers; their gap measures confused slots."""

@@ -1,14 +1,19 @@
 """What a network predicted, put together as `artgen reconstruct` does, and driven in MuJoCo."""
 
 import tempfile
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
+from artgen.articulation.types import Precondition
 from artgen.core.errors import ArtgenError
 from artgen.export import layout
 from artgen.export.files import write_meshes
 from artgen.export.urdf import urdf_text
+from artgen.validate.bounds import shipped_bounds
 from artgen.validate.subject import Source
-from model.evaluation.gates import Gates, gates
+from artgen.validate.urdf_subject import UrdfSubject
+from model.evaluation.gates import Gates, subject_gates
 from model.extract import part_meshes
 from model.prediction import Prediction
 from model.reconstruct.assemble import Wishes, assemble
@@ -37,7 +42,27 @@ def prediction_gates(prediction: Prediction, *, radius: float, resolution: int) 
         write_meshes(made, folder)
         file = folder / layout.URDF
         file.write_text(urdf_text(made), encoding="utf-8")
-        return gates(Source(format="urdf", file=file, root=folder))
+        source = Source(format="urdf", file=file, root=folder)
+        return subject_gates(
+            AssembledSubject(source=source, bounds=shipped_bounds(), waits=made.preconditions)
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class AssembledSubject(UrdfSubject):
+    """A URDF, and which of its joints wait for others, which a URDF cannot say."""
+
+    waits: tuple[Precondition, ...]
+
+    @property
+    def preconditions(self) -> tuple[Precondition, ...]:
+        """As the object states them."""
+        return self.waits
+
+    @cached_property
+    def passages(self) -> tuple[Precondition, ...]:
+        """The same."""
+        return self.waits
 
 
 def _surfaces(prediction: Prediction, radius: float, resolution: int) -> dict[int, Surface]:

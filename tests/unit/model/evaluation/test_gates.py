@@ -28,7 +28,9 @@ def drawer(tmp_path: Path, *, joint: str = "", contact: str = "", mass: str = "1
 
 def test_a_good_drawer_passes(tmp_path: Path) -> None:
     found = drawer(tmp_path)
-    assert found == Gates(loads=True, stable=True, settles=True, opens=True, clear=True, reasons={})
+    assert found == Gates(
+        loads=True, stable=True, settles=True, opens=True, clear=True, deepest=0.0, reasons={}
+    )
     assert found.passed
 
 
@@ -57,6 +59,8 @@ def test_pieces_that_meet_are_not_clear(tmp_path: Path) -> None:
     found = drawer(tmp_path, contact=deep)
     assert found.clear is False
     assert "motion.collision" in found.reasons["clear"]
+    # The drawer reaches 0.3 below its middle, the base's top lies 0.25 below it.
+    assert found.deepest == pytest.approx(0.05, abs=1e-12)
 
 
 def test_without_limits_it_does_not_load(tmp_path: Path) -> None:
