@@ -76,12 +76,21 @@ class Library(Sequence[Soup]):
             return [self[k] for k in range(*position.indices(len(self)))]
         return self._soup(range(len(self))[position])
 
+    def donors(self, k: int) -> tuple[str, ...]:
+        """Ids of the assets whose parts a soup borrows."""
+        return tuple(self._facts(k)["donors"])
+
+    def _facts(self, k: int) -> dict[str, Any]:
+        first, last = self.starts[k : k + 2, _COUNTS.index("facts")]
+        facts = json.loads(self.columns["fact"][first:last].tobytes())
+        return {"donors": (), **facts}
+
     def _soup(self, k: int) -> Soup:
         def rows(kind: str, column: str) -> NDArray[Any]:
             place = _COUNTS.index(kind)
             return self.columns[column][self.starts[k, place] : self.starts[k + 1, place]]
 
-        facts = json.loads(rows("facts", "fact").tobytes())
+        facts = self._facts(k)
         lower, upper = self.columns["box"][k]
         sphere = self.columns["sphere"][k]
         places = rows("vertices", "place").astype(np.float64) / STEPS
@@ -92,6 +101,7 @@ class Library(Sequence[Soup]):
             parts=tuple(facts["parts"]),
             joints=tuple(read_joint(joint) for joint in facts["joints"]),
             preconditions=tuple(Precondition(**rule) for rule in facts["preconditions"]),
+            donors=tuple(facts["donors"]),
             bounds=rows("parts", "bounds"),
             center=sphere[:3],
             radius=float(sphere[3]),
@@ -134,6 +144,7 @@ def _pieces(soup: Soup) -> tuple[dict[str, NDArray[Any]], list[int]]:
         "parts": soup.parts,
         "joints": [_stated(joint) for joint in soup.joints],
         "preconditions": soup.preconditions,
+        **({"donors": soup.donors} if soup.donors else {}),
     }
     pieces: dict[str, NDArray[Any]] = {
         "bounds": soup.bounds,

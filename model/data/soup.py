@@ -37,6 +37,7 @@ class Soup:
 
     Attributes:
         parts: names in canonical order.
+        donors: ids of assets whose parts this one borrows; they decide its split.
         bounds: (P, 2, 3) of the exact parts at rest, m, object frame.
         center: (3,) of the sphere that holds the object in all its states, m.
         radius: of that sphere, m.
@@ -62,6 +63,7 @@ class Soup:
     body: NDArray[np.uint16]
     surface: NDArray[np.uint8]
     looks: NDArray[np.float32]
+    donors: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         kinds: dict[str, type[np.generic]] = {
@@ -136,11 +138,11 @@ def draft_soup(draft: Draft, *, asset_id: str, tolerance: float = TOLERANCE) -> 
 
 
 def _triangles(body: Body, tolerance: float) -> tuple[Floats, Ints]:
-    mesh = _simplified(body.solid.manifold, tolerance).to_mesh64()
+    mesh = simplified(body.solid.manifold, tolerance).to_mesh64()
     return np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int32)
 
 
-def _simplified(solid: m3.Manifold, tolerance: float) -> m3.Manifold:
+def simplified(solid: m3.Manifold, tolerance: float) -> m3.Manifold:
     """Fewer triangles within the tolerance; thin solids, which would vanish, get a finer one."""
     for finer in (1.0, 0.5, 0.25):
         simple = solid.simplify(finer * tolerance) if tolerance > 0.0 else solid

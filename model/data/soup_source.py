@@ -1,7 +1,7 @@
 """Training items from a library of soups: drawn on the CPU, ray-cast where the model trains."""
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import torch
@@ -10,7 +10,7 @@ from torch import Tensor
 from artgen.core.conventions import ART_SLOTS
 from artgen.core.errors import ModelError
 from artgen.core.stream import Stream
-from artgen.dataset.split import Split, split_of
+from artgen.dataset.split import Split, divided, split_of
 from model.batch import Batch, Images, Rays
 from model.data.cameras import Cameras, state_cameras
 from model.data.config import DataConfig
@@ -46,16 +46,21 @@ class SoupSource:
             ModelError: no object is left.
         """
         self.library = library
-        inside = [k for k, name in enumerate(library.ids) if split in (None, split_of(name))]
-        counts = library.part_counts
-        self.positions = tuple(k for k in inside if counts[k] <= slots)
-        self.left_out: Mapping[str, str] = {
-            library.ids[k]: f"{counts[k]} parts, {slots} slots" for k in inside if counts[k] > slots
-        }
+        inside, self.left_out = [], dict[str, str]()
+        for k, (name, count) in enumerate(zip(library.ids, library.part_counts, strict=True)):
+            own = split_of(name, library.donors(k))
+            if split is not None and own is None:
+                self.left_out[name] = divided(library.donors(k))
+            elif split in (None, own) and count > slots:
+                self.left_out[name] = f"{count} parts, {slots} slots"
+            elif split in (None, own):
+                inside.append(k)
+        self.positions = tuple(inside)
         if self.left_out:
             log.warning(
-                "%d of %d objects have more than %d parts and are left out",
-                *(len(self.left_out), len(inside), slots),
+                "%d of %d objects are left out, such as %s: %s",
+                *(len(self.left_out), len(self.left_out) + len(inside)),
+                *next(iter(self.left_out.items())),
             )
         if not self.positions:
             raise ModelError(

@@ -142,7 +142,7 @@ def test_objects_with_too_many_parts_are_counted_and_told(caplog):
     assert len(source) == 5
     assert list(source.left_out) == ["office_chair_000000"]
     assert "parts, 6 slots" in source.left_out["office_chair_000000"]
-    assert "1 of 6 objects have more than 6 parts" in caplog.text
+    assert "1 of 6 objects are left out, such as office_chair_000000: 18 parts" in caplog.text
 
 
 def test_splits_share_no_object():
@@ -155,6 +155,24 @@ def test_splits_share_no_object():
         names[split] = {many.ids[k] for k in source.positions}
         assert all(split_of(name) == split for name in names[split])
     assert sum(len(found) for found in names.values()) == 60
+
+
+def test_an_object_that_borrows_parts_lies_where_its_donors_do():
+    """One donor in train, one in test: the object is in neither split, and that is said."""
+    ids = [f"laptop_{k:06d}" for k in range(60)]
+    train = next(name for name in ids if split_of(name) == "train")
+    test = next(name for name in ids if split_of(name) == "test")
+    made = soup("laptop")
+    mixed = dataclasses.replace(made, asset_id="mixed", donors=(train, test))
+    whole = dataclasses.replace(made, asset_id="whole", donors=(test,))
+    both = packed([mixed, whole])
+    assert both[1].donors == (test,)
+    source = SoupSource(both, split="test")
+    assert source.positions == (1,)
+    assert "borrows parts from different splits" in source.left_out["mixed"]
+    assert len(SoupSource(both)) == 2
+    with pytest.raises(ModelError, match="split train"):
+        SoupSource(both, split="train")
 
 
 def test_an_empty_split_is_refused():
