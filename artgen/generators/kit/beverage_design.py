@@ -30,7 +30,8 @@ BAR = 0.034
 COVER = 0.0065
 """m; thickness of the evaporator's cover at the back."""
 MOST_SLIDING = 6
-MOST_CONTAINERS = 28
+ON_A_SHELF = {1: 5, 2: 3}
+"""Most containers on a shelf, by the number of doors; a bundle stays below 3 MB."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -199,9 +200,9 @@ class BeverageParams:
 
     def ranks_on(self, k: int) -> tuple[int, int]:
         """Most columns and ranks of containers on a shelf."""
-        total = MOST_CONTAINERS // (self.doors * 4)
-        columns = max(2, round(self.fill[k % len(self.fill)] * total))
-        return columns, 2 if columns <= 3 and self.doors == 1 else 1
+        most = ON_A_SHELF[self.doors]
+        columns = max(2, round(self.fill[k % len(self.fill)] * most))
+        return columns, 2 if 2 * columns <= most else 1
 
     def clear_at(self, leaf: ColdLeaf) -> float:
         """Angle, rad, from which on a door is out of the way of what slides out behind it."""
