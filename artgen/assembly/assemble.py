@@ -9,7 +9,7 @@ import numpy as np
 
 from artgen.articulation.types import ArticulatedObject, Joint, Part, Precondition
 from artgen.assembly.choice import OWN, Group, Market
-from artgen.assembly.clash import clashing
+from artgen.assembly.clash import Pair, clashing, template_open
 from artgen.assembly.fill import Fill, Misfit, filled, gripped, handle_on, middle_grip
 from artgen.assembly.library import Entry
 from artgen.assembly.licence import Licence, most_restrictive
@@ -129,6 +129,7 @@ def assembled(market: Market, template: str, stream: Stream) -> Assembled | Give
     split = next(e.split for e in market.library.entries if e.source == template)
     handles = market.handle_order(split, stream.child("handles"))
     looks = drawn_looks(stream.child("looks"))
+    open_before = template_open(source)
     plan = _Plan(donors=[0 if group.donors else None for group in groups])
     plan.tried += [f"{_named(group)}: no donor suits" for group in groups if not group.donors]
     for _ in range(ROUNDS):
@@ -139,7 +140,7 @@ def assembled(market: Market, template: str, stream: Stream) -> Assembled | Give
         if not slots or kept > OWN * slots:
             reason = f"{kept} of {slots} fronts would be the template's own"
             return GivenUp(template=template, reason=reason, tried=tuple(plan.tried))
-        found = _Attempt(market, source, groups, handles, looks, plan).object()
+        found = _Attempt(market, source, groups, handles, looks, plan).object(open_before)
         if isinstance(found, Assembled):
             return found
     reason = f"nothing fits in {ROUNDS} rounds"
@@ -172,7 +173,7 @@ class _Attempt:
         self.licences = [source.licence]
         self.donors = {source.family}
 
-    def object(self) -> Assembled | None:
+    def object(self, open_before: Mapping[Pair, float]) -> Assembled | None:
         """The object, or None where something does not fit; the plan has then moved on."""
         parts: list[Named] = [(self.source.base_name, "base", self._base(self.source.base))]
         for member in self.source.members:
@@ -183,7 +184,7 @@ class _Attempt:
         named, joints = placed(parts, self.source.joints)
         pieces = {name: piece for name, _, piece in named}
         rules = self.source.preconditions
-        if clash := clashing(self.source.base_name, joints, rules, pieces):
+        if clash := clashing(self.source.base_name, joints, rules, pieces, open_before):
             self._move_on(clash)
             return None
         return Assembled(
@@ -200,7 +201,7 @@ class _Attempt:
             seams=self.seams,
         )
 
-    def _move_on(self, clash: tuple[str, str]) -> None:
+    def _move_on(self, clash: Pair) -> None:
         """Another handle or donor for one of two parts that meet; rounds take them in turn."""
         why = f"{clash[0]} meets {clash[1]}"
         involved = [self.group_of[name] for name in clash if name in self.group_of]

@@ -12,6 +12,7 @@ from artgen.assembly.handles import mounted, place_of, places_on
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.piece import Piece
 from artgen.assembly.source import Member
+from artgen.assembly.texels import STRETCH, stretch
 from artgen.assembly.uv_fix import areas, gradients, quarter_turned, unit_normals
 from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
@@ -48,13 +49,16 @@ def filled(slot: Member, donor: Member, surfaces: Sequence[SurfaceSpec]) -> Fill
     """A donor's body on the box of a slot's; `surfaces` are the donor's.
 
     Raises:
-        Misfit: triangles collapse.
+        Misfit: triangles collapse, or texture would be stretched.
     """
     mirrored = donor.side != slot.side
     how = box_map(donor.body, slot.body.bounds, mirrored=mirrored)
     body = fitted(donor.body, how)
     if flat_triangles(body.mesh.vertices, body.mesh.faces):
         raise Misfit("triangles collapse")
+    weights = areas(donor.body.mesh.triangles)
+    if stretch(body.mesh, weights) > STRETCH * stretch(donor.body.mesh, weights):
+        raise Misfit("its texture would be stretched")
     if slot.kind == "front":
         body = with_grain(body, donor.body, surfaces)
     return Fill(body=body, scale=how.scale, mirrored=mirrored)

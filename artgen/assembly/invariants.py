@@ -4,7 +4,7 @@ Numbers are those of the list in docs/assembly.md; what holds of a set of object
 what holds of files is validation's.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,17 +13,18 @@ from artgen.articulation.kinematics import forward_kinematics
 from artgen.articulation.roles import ROLES
 from artgen.articulation.types import Joint, State
 from artgen.assembly.assemble import Assembled
+from artgen.assembly.clash import more_open, open_overlaps, template_open
 from artgen.assembly.licence import most_restrictive
 from artgen.assembly.looks import stuff_of
-from artgen.assembly.piece import Piece, body_volumes, joined
+from artgen.assembly.piece import Piece, body_volumes
 from artgen.assembly.shape_hash import tree_hash
 from artgen.assembly.source import Member, Source
-from artgen.assembly.texels import by_surface, part_medians, stretch
+from artgen.assembly.texels import STRETCH, density, stretch, weighted_quantile
 from artgen.assembly.uv_fix import areas
-from artgen.core.mesh import Floats, TriMesh
+from artgen.core.mesh import Floats
 from artgen.core.transform import apply
 from artgen.dataset.split import split_of
-from artgen.geometry.clearance import Mover, Shape, overlaps, shape_of_mesh
+from artgen.geometry.clearance import shape_of_mesh
 from artgen.geometry.distance import nearest_distance
 from artgen.validate.bounds import shipped_bounds
 from artgen.validate.mesh import repeated
@@ -51,12 +52,7 @@ UNEVEN = 0.25
 """Greatest coefficient of variation of texel density over the faces of one material."""
 RATIO = (0.8, 1.25)
 """Of the median texel density of a part to that of all parts."""
-STRETCH = 1.2
-"""Greatest factor between the stretch of a fitted front and of its donor, 95th percentile."""
-MORE_OPEN = 1.25
-"""Factor by which parts that are all open at once may share more than the template's own do."""
 STATES = 9
-Overlapped = Mapping[tuple[str, ...], float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -200,17 +196,14 @@ def clear(case: Case) -> Iterator[Broken]:
     base, joints = case.new.parts[0][0], case.new.joints
     for crossing in crossings(base, joints, case.new.preconditions, shapes):
         if crossing.overlap.volume > allowed:
-            pair = f"{crossing.overlap.first}, {crossing.overlap.second}"
+            names = f"{crossing.overlap.first}, {crossing.overlap.second}"
             value = f"{crossing.overlap.volume:.3g} m3"
-            yield Broken(number=6, part=pair, value=value, bound=f"<= {allowed:g} m3")
-    own = {m.name: shape_of_mesh(_all_of(m)) for m in case.template.members}
-    own[case.template.base_name] = shape_of_mesh(case.template.base.mesh)
-    before = _all_open(case.template.base_name, case.template.joints, own)
-    after = _all_open(base, joints, shapes)
-    for names, volume in after.items():
-        if volume > before.get(names, 0.0) * MORE_OPEN + allowed:
-            value, bound = f"{volume:.3g} m3", f"{before.get(names, 0.0):.3g} m3 of the template"
-            yield Broken(number=6, part=", ".join(names), value=value, bound=bound)
+            yield Broken(number=6, part=names, value=value, bound=f"<= {allowed:g} m3")
+    before = template_open(case.template)
+    for pair, volume in open_overlaps(base, joints, shapes).items():
+        if volume > more_open(before.get(pair, 0.0)):
+            value, bound = f"{volume:.3g} m3", f"<= {more_open(before.get(pair, 0.0)):.3g} m3"
+            yield Broken(number=6, part=", ".join(pair), value=value, bound=bound)
 
 
 def engaged(case: Case) -> Iterator[Broken]:
@@ -245,11 +238,11 @@ def sound(case: Case) -> Iterator[Broken]:
 def textured(case: Case) -> Iterator[Broken]:
     """10: texture is as dense on all faces of a material, on all parts, and no more stretched than
     on the donors."""
-    for surface, spread in by_surface(case.new).items():
+    for surface, spread in density_by_surface(case.new).items():
         if spread > UNEVEN:
             value, bound = f"{spread:.3f}", f"variation of density <= {UNEVEN}"
             yield Broken(number=10, part=surface, value=value, bound=bound)
-    medians = part_medians(case.new)
+    medians = density_by_part(case.new)
     middle = float(np.median(list(medians.values())))
     for name, median in medians.items():
         if not RATIO[0] <= median / middle <= RATIO[1]:
@@ -309,27 +302,36 @@ def held_out(case: Case) -> Iterator[Broken]:
         yield Broken(number=16, part="object", value="two splits", bound="one split")
 
 
-def _all_open(base: str, joints: Sequence[Joint], shapes: Mapping[str, Shape]) -> Overlapped:
-    """Pairs of parts and what they share with every joint at its upper end, m3."""
-    state = {j.name: j.limit.upper for j in joints if j.limit is not None and j.mimic is None}
-    poses = forward_kinematics(base, joints, state)
-    movers = [
-        Mover(name=name, shape=shape, poses=poses[name][None]) for name, shape in shapes.items()
-    ]
-    found: dict[tuple[str, ...], float] = {}
-    for overlap in overlaps(movers):
-        pair = tuple(sorted((overlap.first, overlap.second)))
-        found[pair] = max(found.get(pair, 0.0), overlap.volume)
-    return found
-
-
-def _all_of(member: Member) -> TriMesh:
-    return joined(member.pieces).mesh
-
-
 def _broken(number: int, member: Member, value: float | str, bound: str) -> Broken:
     told = value if isinstance(value, str) else f"{value:.4g}"
     return Broken(number=number, part=member.name, value=told, bound=bound)
+
+
+def density_by_surface(new: Assembled) -> dict[str, float]:
+    """Surface name to the coefficient of variation of texel density over its area; prints, which
+    fill the face they are made for, are left out."""
+    found: dict[str, list[tuple[Floats, Floats]]] = {}
+    for _, _, piece in new.parts:
+        dense, weight = density(piece.mesh), areas(piece.mesh.triangles)
+        for slot in piece.slots:
+            own = np.asarray(piece.mesh.slot) == slot
+            if stuff_of(new.surfaces[slot]) != "print":
+                found.setdefault(new.surfaces[slot].name, []).append((dense[own], weight[own]))
+    return {name: _variation(pairs) for name, pairs in found.items()}
+
+
+def _variation(pairs: list[tuple[Floats, Floats]]) -> float:
+    values, weights = (np.concatenate(column) for column in zip(*pairs, strict=True))
+    mean = float(np.average(values, weights=weights))
+    return float(np.sqrt(np.average((values - mean) ** 2, weights=weights)) / mean)
+
+
+def density_by_part(new: Assembled) -> dict[str, float]:
+    """Name of a part to the median by area of density on it."""
+    return {
+        name: weighted_quantile(density(piece.mesh), areas(piece.mesh.triangles), 0.5)
+        for name, _, piece in new.parts
+    }
 
 
 Check = Callable[[Case], Iterator[Broken]]

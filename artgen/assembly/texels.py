@@ -1,15 +1,16 @@
-"""How dense texture lies on surfaces and how stretched it is, over objects, parts and materials.
+"""How dense texture lies on surfaces and how stretched it is.
 
 UV are metres on the surface, so density is 1 where lengths are kept whatever the material: texels a
-metre are those of a tile over its width. Prints are left out; they fill the face they are made for.
+metre are those of a tile over its width.
 """
 
 import numpy as np
 
-from artgen.assembly.assemble import Assembled
-from artgen.assembly.looks import stuff_of
 from artgen.assembly.uv_fix import areas, singular_values
 from artgen.core.mesh import Floats, TriMesh
+
+STRETCH = 1.2
+"""Greatest factor between the stretch of a fitted front and of its donor, 95th percentile."""
 
 
 def density(mesh: TriMesh) -> Floats:
@@ -36,29 +37,3 @@ def weighted_quantile(values: Floats, weights: Floats, share: float) -> float:
     order = np.argsort(values)
     reached = np.cumsum(weights[order])
     return float(values[order[np.searchsorted(reached, share * reached[-1])]])
-
-
-def by_surface(new: Assembled) -> dict[str, float]:
-    """Surface name to the coefficient of variation of density over its area."""
-    found: dict[str, list[tuple[Floats, Floats]]] = {}
-    for _, _, piece in new.parts:
-        dense, weight = density(piece.mesh), areas(piece.mesh.triangles)
-        for slot in piece.slots:
-            own = np.asarray(piece.mesh.slot) == slot
-            if stuff_of(new.surfaces[slot]) != "print":
-                found.setdefault(new.surfaces[slot].name, []).append((dense[own], weight[own]))
-    return {name: _variation(pairs) for name, pairs in found.items()}
-
-
-def _variation(pairs: list[tuple[Floats, Floats]]) -> float:
-    values, weights = (np.concatenate(column) for column in zip(*pairs, strict=True))
-    mean = float(np.average(values, weights=weights))
-    return float(np.sqrt(np.average((values - mean) ** 2, weights=weights)) / mean)
-
-
-def part_medians(new: Assembled) -> dict[str, float]:
-    """Name of a part to the median by area of density on it."""
-    return {
-        name: weighted_quantile(density(piece.mesh), areas(piece.mesh.triangles), 0.5)
-        for name, _, piece in new.parts
-    }

@@ -1,10 +1,13 @@
 """Texture coordinates corrected after unequal scaling: as dense as before, grain as it ran.
 
 A chart is a connected piece of surface of one material on which texture runs on without a seam and
-which turns by less than 30 degrees from triangle to triangle. Where a chart is flat and mapped
-linearly the correction is exact: the same two gradients are laid out on the new plane. Elsewhere u
-and v are each rescaled about the chart's middle by the ratio of their mean gradients.
+which turns by less than 30 degrees from triangle to triangle. Where a chart was laid out by one
+linear map of space (flat charts, box projections with their rounded edges) the correction is exact:
+the same map lays out the new chart. Elsewhere u and v are each rescaled about the chart's middle by
+the ratio of their mean gradients.
 """
+
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +21,8 @@ SPLIT = np.cos(np.radians(30.0))
 """Neighbors whose normals turn further belong to two charts."""
 SEAM = 1e-5
 """m; coordinates of one corner that differ by more are a seam."""
-FLAT = 1e-6
-"""Largest deviation of a flat chart's normals from their mean."""
+THIN = 1e-5
+"""A chart thinner than this share of its size is flat: what vertices stand out is rounding."""
 LINEAR = 2e-5
 """m; UV are rounded to 1e-6 m and vertices to 1e-7 m, and a plane is fitted through them."""
 Labels = NDArray[np.int64]
@@ -39,8 +42,10 @@ def fixed_uv(mesh: TriMesh, vertices: Floats, *, mirrored: bool) -> Floats:
     if mirrored:
         before = before * (-1.0, 1.0, 1.0)
     fixed = _rescaled(before, moved, uv, label)
-    for chart in _flat_charts(before, moved, label):
-        own = label == chart
+    order = np.argsort(label, kind="stable")
+    ends = np.searchsorted(label[order], np.arange(int(label.max()) + 2))
+    for first, last in pairwise(ends.tolist()):
+        own = order[first:last]
         laid = _laid_out(before[own], moved[own], uv[own])
         if laid is not None:
             fixed[own] = laid
@@ -136,32 +141,25 @@ def _rescaled(before: Floats, after: Floats, uv: Floats, label: Labels) -> Float
     return fixed
 
 
-def _flat_charts(before: Floats, after: Floats, label: Labels) -> list[int]:
-    """Charts that are flat both before and after."""
-    flat = np.ones(int(label.max()) + 1, bool)
-    for triangles in (before, after):
-        normals = unit_normals(triangles)
-        sums = np.stack([np.bincount(label, weights=normals[:, k]) for k in range(3)], axis=1)
-        mean = sums / np.linalg.norm(sums, axis=1, keepdims=True).clip(min=1e-300)
-        off = np.abs(normals - mean[label]).max(axis=1)
-        flat[label[off > FLAT]] = False
-    return [int(chart) for chart in np.flatnonzero(flat)]
-
-
 def _laid_out(before: Floats, after: Floats, uv: Floats) -> Floats | None:
-    """(F, 3, 2) UV of a flat chart with the gradients that it had, or None where its map is not
-    linear. The axes of the new plane are those that the old ones turn to."""
-    largest = int(np.argmax(areas(before)))
-    slope = gradients(before[largest : largest + 1], uv[largest : largest + 1])[0]
-    origin, value = before[largest, 0], uv[largest, 0]
-    if np.abs((before - origin) @ slope.T + value - uv).max() > LINEAR:
+    """(F, 3, 2) UV of a chart that was laid out by a linear map of space, as flat charts are and
+    those seen along an axis; None where it was not. The gradients of that map are kept; they turn
+    as the chart as a whole turns."""
+    points, values = before.reshape(-1, 3), uv.reshape(-1, 2)
+    origin, value = points.mean(axis=0), values.mean(axis=0)
+    slope = np.linalg.lstsq(points - origin, values - value, rcond=THIN)[0]
+    if np.abs((points - origin) @ slope + value - values).max() > LINEAR:
         return None
-    normal = unit_normals(after[np.argmax(areas(after))][None])[0]
-    old = unit_normals(before[largest : largest + 1])[0]
-    turned = slope @ _least_turn(old, normal).T
+    turn = _least_turn(_facing(before), _facing(after))
     start = after.reshape(-1, 3).mean(axis=0)
-    middle = uv.reshape(-1, 2).mean(axis=0)
-    return np.asarray((after - start) @ turned.T + middle)
+    return np.asarray((after - start) @ (turn @ slope) + value)
+
+
+def _facing(triangles: Floats) -> Floats:
+    """(3,) unit mean normal by area."""
+    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    total = cross.sum(axis=0)
+    return np.asarray(total / max(float(np.linalg.norm(total)), 1e-300))
 
 
 def _least_turn(start: Floats, end: Floats) -> Floats:
