@@ -10,7 +10,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor
 
 from artgen.core.errors import ModelError
@@ -21,6 +23,7 @@ from model.art import Art
 from model.batch import FIXED, REVOLUTE, Batch, Rays
 from model.config import Config, LossWeights
 from model.objective import Objective, seen_along
+from model.picture import picture_of
 from model.prediction import Prediction
 from model.run_state import Run, begun, resume
 from model.schedule import Moment, moment_at
@@ -59,11 +62,11 @@ class Rung:
 
 
 def rungs(steps: int) -> tuple[Rung, ...]:
-    """Masks, joints, colors, each with a number of updates."""
+    """Masks, joints, and colors, which take longer."""
     return (
         Rung(name="masks", weights=MASKS, forced=True, steps=steps),
         Rung(name="joints", weights=JOINTS, forced=False, steps=steps),
-        Rung(name="colors", weights=COLORS, forced=False, steps=2 * steps),
+        Rung(name="colors", weights=COLORS, forced=False, steps=4 * steps),
     )
 
 
@@ -96,14 +99,14 @@ class Climbed:
 
 def climb(
     config: Config, batch: Batch, *, steps: int, rays: int, folder: Path, show: Show = silent
-) -> Iterator[Climbed]:
-    """Learn one object by heart; what was learned after every rung. Resumes in its folder.
+) -> Iterator[tuple[Climbed, NDArray[np.uint8]]]:
+    """Learn one object by heart; after every rung, what was learned, and a picture of it.
 
     Args:
         batch: the object, with a multiple of the rays that one update needs; the last fifth of
             them is kept for measuring.
         rays: of one update.
-        folder: receives the log and checkpoints of each rung.
+        folder: receives the log and checkpoints of each rung; an interrupted climb resumes in it.
     """
     torch.manual_seed(config.train.seed)
     art = Art(config.model)
@@ -115,7 +118,8 @@ def climb(
         run = begun(Objective(art, rung.weights), settings, items=1, settings=plain(settings))
         resume(run, folder / rung.name)
         train(run, Redrawn(held, rays).supply, folder=folder / rung.name, show=show)
-        yield measured(run, art, kept, rung)
+        moment = moment_at(settings, settings.steps - 1)
+        yield measured(run, art, kept, rung), picture_of(art, batch, moment)
 
 
 def divided(batch: Batch, seed: int) -> tuple[Batch, Batch]:
