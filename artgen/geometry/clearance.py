@@ -205,6 +205,8 @@ def _common(one: m3.Manifold, other: m3.Manifold, other_from_one: Floats) -> Flo
     that passes a seal within 0.1 mm with a wedge of 2e-9 m3 that lies outside of the wall.
     """
     volumes = np.zeros(len(other_from_one))
+    if one.is_empty() or other.is_empty():  # What is not closed is no solid, and has no box.
+        return volumes
     whole = one, other
     meeting = np.ones(len(other_from_one), bool)
     if len(other_from_one) >= WORTH_A_CUT:

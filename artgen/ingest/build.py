@@ -52,7 +52,8 @@ def build(foreign: ForeignObject, options: Options, *, asset_id: str, category: 
     bodies, washed = cleaned(foreign, meshes, place)
     surfaces = surfaces_of([body for own in bodies.values() for body in own])
     names = ordered_names(bodies, labels)
-    parts = finished_parts(bodies, names, labels, surfaces, options)
+    stated = {part.name: part.mass for part in foreign.parts if part.mass is not None}
+    parts = finished_parts(bodies, names, labels, surfaces, options, stated)
     joints = _joints(foreign, rests, place, names, parts)
     account = Account(
         foreign=foreign,

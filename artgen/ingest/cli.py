@@ -1,5 +1,6 @@
 """`artgen ingest`: foreign objects to bundles; `artgen export`: bundles to foreign layouts."""
 
+import dataclasses
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -12,10 +13,12 @@ from rich.console import Console
 
 from artgen.assembly.licence import KNOWN
 from artgen.core.errors import UsageError, did_you_mean
-from artgen.ingest.found import Found, found_folders
+from artgen.ingest.found import Found, found_files, found_folders
+from artgen.ingest.meshes.scenes import MESHES
 from artgen.ingest.options import GivenRest, Options
 from artgen.ingest.report import table, write_report
 from artgen.ingest.run import ingest_all
+from artgen.ingest.static import Up
 from artgen.ingest.task import Kind
 from artgen.progress import progress
 from artgen.run_folder import opened
@@ -73,24 +76,35 @@ class IngestUrdf(Settings):
     """Turn URDF files into bundles.
 
     Meshes may be OBJ (with MTL), STL, GLB, DAE or PLY, below the folder of the URDF; lengths are
-    meters, as URDF says, unless --meters-per-unit is given. Front is -y after --turn.
+    meters, as URDF says, unless --meters-per-unit is given.
     """
 
-    turn: float = 0.0
-    """Degrees about z that bring the object's front to -y."""
+    turn: float = -90.0
+    """Degrees about z that bring the object's front to -y; -90 fits files whose front is +x."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class IngestStatic(Settings):
     """Turn mesh files of objects that do not move into bundles, with their parts in order.
 
-    Each file is one object; its nodes are the parts, normalized, ordered and capped.
+    Each file (GLB, OBJ, DAE, STL, PLY) is one object; its nodes are the parts: the largest first,
+    the others low to high, front to back, left to right, the smallest beyond --max-parts joined to
+    the largest. The manifest lists them under `fragments`.
     """
+
+    up: Up = "y"
+    """Axis that points up in the files; y as in glTF, with the front at +z, or z, front -y."""
+    extensions: tuple[str, ...] = (".glb",)
+    """Which files of a folder are objects."""
 
 
 def ingest(argv: Sequence[str]) -> int:
     """Foreign objects (PartNet-Mobility, URDF, static meshes) to bundles."""
-    kinds: Mapping[str, Callable[[Sequence[str]], int]] = {"partnet": partnet}
+    kinds: Mapping[str, Callable[[Sequence[str]], int]] = {
+        "partnet": partnet,
+        "urdf": urdf,
+        "static": static,
+    }
     return dispatched("ingest", kinds, argv, USAGE)
 
 
@@ -113,12 +127,29 @@ def dispatched(
 def partnet(argv: Sequence[str]) -> int:
     """PartNet-Mobility folders to bundles: 0 all usable, 1 some refused."""
     command = tyro.cli(IngestPartnet, args=list(argv), prog="artgen ingest partnet")
-    return run(command, "partnet", found_folders(command.paths))
+    return run(command, "partnet", found_folders(command.paths), checked_options(command))
 
 
-def run(command: Settings, kind: Kind, found: Sequence[Found]) -> int:
+def urdf(argv: Sequence[str]) -> int:
+    """URDF files to bundles: 0 all usable, 1 some refused."""
+    command = tyro.cli(IngestUrdf, args=list(argv), prog="artgen ingest urdf")
+    found = found_files(command.paths, (".urdf",))
+    options = dataclasses.replace(checked_options(command), turn_deg=command.turn)
+    return run(command, "urdf", found, options)
+
+
+def static(argv: Sequence[str]) -> int:
+    """Mesh files to bundles without joints: 0 all usable, 1 some refused."""
+    command = tyro.cli(IngestStatic, args=list(argv), prog="artgen ingest static")
+    if unknown := [word for word in command.extensions if word.lower() not in MESHES]:
+        raise UsageError(f"--extensions {unknown[0]} is not read; known: {', '.join(MESHES)}")
+    found = found_files(command.paths, command.extensions)
+    options = dataclasses.replace(checked_options(command), up=command.up)
+    return run(command, "static", found, options)
+
+
+def run(command: Settings, kind: Kind, found: Sequence[Found], options: Options) -> int:
     """Ingest what was found, write and print the report."""
-    options = checked_options(command)
     check_libraries()
     need = len(found) * BYTES_PER_OBJECT
     with opened(command.out, seed=0, need_bytes=need) as folder:

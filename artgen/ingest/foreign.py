@@ -26,11 +26,12 @@ class ForeignShape:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ForeignPart:
-    """What moves as one: meshes, and the source's word for it."""
+    """What moves as one: meshes, the source's word for it, and its mass where one is stated, kg."""
 
     name: str
     word: str
     shapes: tuple[ForeignShape, ...]
+    mass: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

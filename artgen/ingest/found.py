@@ -10,7 +10,6 @@ from artgen.ingest.task import Kind, slug
 MARKS = ("mobility_v2.json", "mobility.urdf", "meta.json", "result.json")
 """A folder with one of these is an object's, or claims to be."""
 PREFIX = {"partnet": "pm", "urdf": "urdf", "static": "static"}
-STATIC = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,3 +109,8 @@ def named(found: Sequence[Found], kind: Kind) -> list[tuple[str, Found]]:
         taken.add(own)
         listed.append((own, entry))
     return listed
+
+
+def _own_name(path: Path) -> str:
+    """A folder's name; of a file, with that of its folder, as many files are called alike."""
+    return f"{path.parent.name}_{path.stem}" if path.is_file() else path.name

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from artgen.ingest.static import Up
+
 
 @dataclass(frozen=True, kw_only=True)
 class GivenRest:
@@ -23,6 +25,8 @@ class Options:
         density: kg/m3 of everything, as no source states it.
         thickness: m that open surfaces weigh as.
         pieces: cuts that a part's collision may take.
+        turn_deg: about z, brings the front of a URDF's object to -y.
+        up: axis that points up in a static mesh file.
         licence: identifier of the terms of the source; None leaves it to the data set.
     """
 
@@ -32,4 +36,6 @@ class Options:
     thickness: float = 0.004
     pieces: int = 24
     rests: tuple[GivenRest, ...] = ()
+    turn_deg: float = -90.0
+    up: Up = "y"
     licence: str | None = None

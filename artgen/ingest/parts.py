@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from artgen.articulation.canonical import canonical_order
-from artgen.articulation.types import Part
+from artgen.articulation.types import Mass, Part
 from artgen.core.conventions import UV_DECIMALS
 from artgen.core.errors import IngestError
 from artgen.core.mesh import Floats, TriMesh
@@ -24,6 +24,8 @@ from artgen.ingest.surfaces import Surfaces
 
 MOST_BODIES = 30_000
 """Bodies of one part; their numbers have 16 bits."""
+LIGHTEST, HEAVIEST = 20.0, 12_000.0
+"""kg/m3 between which solids are; a mass that asks for others is not believed."""
 Bodies = Mapping[str, Sequence[Body]]
 """Part name of the source to its bodies, in the object frame at rest."""
 
@@ -98,8 +100,12 @@ def finished_parts(
     labels: Mapping[str, str],
     surfaces: Surfaces,
     options: Options,
+    stated: Mapping[str, float],
 ) -> tuple[Part, ...]:
     """Meshes with both UV sets, collision pieces and mass, in the order of `names`.
+
+    Args:
+        stated: kg of parts that the source weighs; kept where that is a mass of solids.
 
     Raises:
         GeometryError: the atlas cannot be packed, or a part has no mass.
@@ -113,6 +119,8 @@ def finished_parts(
     for (name, mesh), uv in zip(meshes.items(), atlas, strict=True):
         own = bodies[name]
         solid = all(body.closed for body in own)
+        mass = weighed(own, density=options.density, thickness=options.thickness)
+        factor = mass_factor(mass, stated.get(name), options.density)
         parts.append(
             Part(
                 name=names[name],
@@ -126,11 +134,24 @@ def finished_parts(
                     body=mesh.body,
                 ),
                 collision=pieces[name],
-                mass=weighed(own, density=options.density, thickness=options.thickness),
-                densities=(options.density,) * len(own) if solid else None,
+                mass=_scaled(mass, factor),
+                densities=(factor * options.density,) * len(own) if solid else None,
             )
         )
     return tuple(parts)
+
+
+def mass_factor(mass: Mass, stated: float | None, density: float) -> float:
+    """By how much heavier a part is than assumed: as stated, if its density is then that of a
+    solid; else 1."""
+    if stated is None:
+        return 1.0
+    factor = stated / mass.mass
+    return factor if LIGHTEST <= factor * density <= HEAVIEST else 1.0
+
+
+def _scaled(mass: Mass, factor: float) -> Mass:
+    return Mass(mass=factor * mass.mass, center=mass.center, inertia=factor * mass.inertia)
 
 
 def part_mesh(bodies: Sequence[Body], surfaces: Surfaces) -> TriMesh:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from artgen.core.errors import IngestError
-from artgen.ingest.foreign import ForeignJoint, ForeignObject, ForeignPart
+from artgen.ingest.foreign import ForeignJoint, ForeignObject
 
 STILL = 1e-6
 """rad or units: a joint of less range does not move."""
@@ -61,9 +61,11 @@ def fixed(obj: ForeignObject, children: Sequence[str]) -> ForeignObject:
     parts = []
     for part in obj.parts:
         if part.name not in carrier:
-            shapes = [s for other in obj.parts if owner(other.name) == part.name
-                      for s in other.shapes]  # fmt: skip
-            parts.append(ForeignPart(name=part.name, word=part.word, shapes=tuple(shapes)))
+            own = [other for other in obj.parts if owner(other.name) == part.name]
+            shapes = tuple(shape for other in own for shape in other.shapes)
+            masses = [other.mass for other in own if other.mass is not None]
+            mass = sum(masses) if masses else None
+            parts.append(dataclasses.replace(part, shapes=shapes, mass=mass))
     joints = [
         dataclasses.replace(joint, parent=owner(joint.parent))
         for joint in obj.joints

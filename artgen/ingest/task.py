@@ -17,12 +17,19 @@ from artgen.ingest.build import Built, build
 from artgen.ingest.foreign import ForeignObject
 from artgen.ingest.options import Options
 from artgen.ingest.partnet.folder import read_partnet
+from artgen.ingest.static import read_static
+from artgen.ingest.urdf import read_urdf
 from artgen.pipeline import Toolbox
 from artgen.validate import Report, validate_bundle
 
 Kind = Literal["partnet", "urdf", "static"]
 Status = Literal["valid", "flawed", "refused"]
-READERS: Mapping[str, Callable[[Path], ForeignObject]] = {"partnet": read_partnet}
+Reader = Callable[[Path, Options], ForeignObject]
+READERS: Mapping[Kind, Reader] = {
+    "partnet": lambda path, _: read_partnet(path),
+    "urdf": lambda path, options: read_urdf(path, turn_deg=options.turn_deg),
+    "static": lambda path, options: read_static(path, up=options.up, most=options.max_parts),
+}
 """Kind of source to the function that reads one object of it."""
 BROKEN = (ET.ParseError, ValueError, LookupError, TypeError, ArithmeticError, RecursionError)
 """What damaged input makes libraries raise beyond our own errors."""
@@ -75,7 +82,7 @@ def ingest(task: IngestTask, tools: Toolbox) -> Outcome:
     """Read, build, write and judge one object; a bundle lands in assets/, or in failed/ where no
     simulator can use it. Input that cannot be used is an outcome, not an error."""
     try:
-        foreign = READERS[task.kind](task.path)
+        foreign = READERS[task.kind](task.path, task.options)
         category = category_name(foreign.category)
         built = build(foreign, task.options, asset_id=task.asset_id, category=category)
         return _written(task, built, tools)

@@ -133,6 +133,8 @@ def stops(subject: Subject) -> Iterator[Finding | Simulated]:
     """Thrown against its stops, no joint goes far beyond, and none comes out fast."""
     bound, model = subject.bounds.overshoot, subject.simulated
     limited = [joint for joint in subject.joints if joint.limit is not None and not joint.mimic]
+    if not limited:
+        return
     effects = needed_effects(model, _task("dynamics.stop", model, limited, True))
     yield Simulated(check="dynamics.stop", effects=effects.told)
     for forward in (True, False):

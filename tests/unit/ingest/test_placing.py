@@ -14,7 +14,7 @@ from artgen.core.mesh import Floats
 from artgen.core.transform import apply
 from artgen.export.partnet.nodes import Leaf, Motion, Node
 from artgen.export.partnet.rule import frame_of, rule_joints
-from artgen.ingest.foreign import ForeignJoint, ForeignObject
+from artgen.ingest.foreign import ForeignObject
 from artgen.ingest.partnet.folder import OBJECT_FROM_MESH, read_partnet
 from artgen.ingest.placing import Place, placed, placed_joint
 from artgen.ingest.rest import Rest
