@@ -13,15 +13,21 @@ from pathlib import Path
 import numpy as np
 import torch
 from numpy.typing import NDArray
+from PIL import Image
 from torch import Tensor
 
 from artgen.core.errors import ModelError
-from artgen.core.jsonio import plain
+from artgen.core.jsonio import plain, replace_atomically
 from artgen.core.stream import Stream
 from artgen.progress import Show, silent
+from artgen.studies.table import write_table
 from model.art import Art
 from model.batch import FIXED, REVOLUTE, Batch, Rays
 from model.config import Config, LossWeights
+from model.data.library import packed
+from model.data.loader import batches
+from model.data.soup import seed_soup
+from model.data.soup_source import SoupSource
 from model.objective import Objective, seen_along
 from model.picture import picture_of
 from model.prediction import Prediction
@@ -95,6 +101,33 @@ class Climbed:
     axis_deg: float
     origin: float
     motion: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Specimen:
+    """The object to learn, as `artgen generate` makes it."""
+
+    category: str
+    seed: int
+    index: int
+
+
+def write_ladder(
+    specimen: Specimen, config: Config, *, steps: int, rays: int, folder: Path, show: Show = silent
+) -> Iterator[Climbed]:
+    """Climb with an object; leaves ladder.csv and ladder.png in the folder, too."""
+    torch.set_flush_denormal(True)
+    soup = seed_soup(specimen.category, specimen.seed, specimen.index)
+    batch = next(batches(SoupSource(packed([soup])), config.data))
+    rows, pictures = [], []
+    for row, picture in climb(config, batch, steps=steps, rays=rays, folder=folder, show=show):
+        rows.append(row)
+        pictures.append(picture)
+        yield row
+    write_table(folder / "ladder.csv", rows)
+    image = Image.fromarray(np.concatenate(pictures))
+    large = image.resize((4 * image.width, 4 * image.height), Image.Resampling.NEAREST)
+    replace_atomically(folder / "ladder.png", lambda partial: large.save(partial, format="PNG"))
 
 
 def climb(

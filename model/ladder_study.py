@@ -5,22 +5,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-import torch
 import tyro
-from PIL import Image
-from rich.console import Console
 
 from artgen.core.errors import UsageError
-from artgen.core.jsonio import replace_atomically
 from artgen.progress import progress
-from artgen.studies.table import write_table
 from model.config import Config
-from model.data.library import packed
-from model.data.loader import batches
-from model.data.soup import seed_soup
-from model.data.soup_source import SoupSource
-from model.ladder import climb
 from model.recipes import multiview
 from model.settings import changed
 
@@ -64,21 +53,18 @@ def ladder(argv: Sequence[str]) -> int:
     command = tyro.cli(Ladder, args=list(argv), prog="artgen study ladder")
     if min(command.steps, command.rays) < 1:
         raise UsageError(f"--steps {command.steps} and --rays {command.rays} must be at least 1")
-    torch.set_flush_denormal(True)
-    config = _config(command)
-    source = SoupSource(packed([seed_soup(command.category, command.seed, command.index)]))
-    batch = next(batches(source, config.data))
-    console, rows, pictures = Console(), [], []
-    for row, picture in climb(
-        config, batch, steps=command.steps, rays=command.rays, folder=command.out, show=progress
+    from model.ladder import Specimen, write_ladder  # Torch takes seconds to import.
+
+    specimen = Specimen(category=command.category, seed=command.seed, index=command.index)
+    for row in write_ladder(
+        specimen,
+        _config(command),
+        steps=command.steps,
+        rays=command.rays,
+        folder=command.out,
+        show=progress,
     ):
-        console.print(row)
-        rows.append(row)
-        pictures.append(picture)
-    write_table(command.out / "ladder.csv", rows)
-    image = Image.fromarray(np.concatenate(pictures))
-    enlarged = image.resize((4 * image.width, 4 * image.height), Image.Resampling.NEAREST)
-    replace_atomically(command.out / "ladder.png", lambda p: enlarged.save(p, format="PNG"))
+        print(row)  # noqa: T201
     return 0
 
 
