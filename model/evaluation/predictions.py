@@ -5,6 +5,7 @@ B objects, T states, P part slots.
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,6 +66,16 @@ def layout_of(
         states=_array(articulation.motion_BTP[index])[:, slots] * unit,
         meshes=tuple(own.get(int(slot)) for slot in slots) if own else (),
     )
+
+
+def with_observed_limits(layout: Layout) -> Layout:
+    """The layout with ranges from rest to the farthest states seen either way, for those who state
+    no limits."""
+    if layout.states is None:
+        return layout
+    ends = np.stack([layout.states.min(axis=0), layout.states.max(axis=0)], axis=1)
+    lower, upper = ends[:, 0].clip(max=0.0), ends[:, 1].clip(min=0.0)
+    return replace(layout, limits=np.stack([lower, upper], axis=1))
 
 
 def _tree(parents: list[int]) -> NDArray[np.int8]:

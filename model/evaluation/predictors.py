@@ -22,7 +22,7 @@ from model.evaluation.gates import Gates
 from model.evaluation.held_out import HeldOut, flips
 from model.evaluation.images import ImageScores, image_scores
 from model.evaluation.layout import Layout
-from model.evaluation.predictions import layout_of
+from model.evaluation.predictions import layout_of, with_observed_limits
 from model.evaluation.simulated import prediction_gates
 from model.extract import ColoredMesh, part_meshes
 from model.infer import predict
@@ -116,6 +116,7 @@ class ArtPredictor:
         layout = layout_of(
             prediction.articulation, 0, name=item.name, category=item.category, meshes=meshes
         )
+        layout = layout if prediction.limited else with_observed_limits(layout)
         images = self._images(prediction, item) if shaped and self.samples else {}
         held = None
         if self.gated:

@@ -1,0 +1,74 @@
+"""Networks and baselines through the command, on a library of six objects."""
+
+import json
+from pathlib import Path
+
+import pytest
+import torch
+
+from artgen.core.errors import UsageError
+from model.art import Art
+from model.art_file import ModelCard, save_art
+from model.batch import Articulation
+from model.data.library import write_library
+from model.evaluation.cli import evaluate
+from model.evaluation.held_out import flips
+from model.evaluation.predictors import with_more_states
+from model.recipes import RECIPES
+from tests.unit.model.data.small import library
+from tests.unit.model.evaluation.test_predictions import articulation
+
+OPTIONS = ["--points", "200", "--part-points", "200", "--mask-pixels", "16", "--split", "all"]
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder: Path = tmp_path_factory.mktemp("networks")
+    write_library(folder / "library.npz", library())
+    return folder
+
+
+def run(place: Path, what: str, out: str, *more: str) -> dict[str, dict[str, float]]:
+    arguments = [what, "--truth", str(place / "library.npz"), "--out", str(place / out)]
+    assert evaluate([*arguments, *OPTIONS, *more]) == 0
+    found = json.loads((place / out / "evaluation.json").read_text(encoding="utf-8"))
+    overall: dict[str, dict[str, float]] = found["summary"]["overall"]
+    return overall
+
+
+def test_a_network_is_judged_at_views_and_in_a_state_it_has_not_seen(place: Path) -> None:
+    torch.manual_seed(0)
+    config = RECIPES["debug"]("nano")
+    save_art(place / "art.safetensors", Art(config.model).eval(), config, ModelCard())
+    options = ("--count", "1", "--resolution", "8", "--samples", "4", "--no-gates")
+    found = run(place, str(place / "art.safetensors"), "art", *options)
+    assert found["images.psnr"]["values"] == 4  # Two states by two views.
+    assert found["images.new_state.psnr"]["values"] == 2
+    assert found["surfaces.rest.chamfer_l1"]["mean"] > 0.0
+    assert found["parts.count_right"]["mean"] == 1.0  # It is told.
+    assert found["gates.passed"]["mean"] is None
+
+
+def test_the_mean_layout_has_boxes_and_no_surfaces(place: Path) -> None:
+    more = ("--train", str(place / "library.npz"), "--count", "2", "--views", "1")
+    found = run(place, "mean", "mean", *more)
+    assert 0.0 <= found["singapo.honest.order.rs_dgiou"]["mean"] < 2.0
+    assert found["surfaces.rest.chamfer_l1"]["mean"] is None
+
+
+def test_a_baseline_without_training_objects_is_told(place: Path) -> None:
+    with pytest.raises(UsageError, match="--train"):
+        run(place, "pixels", "none")
+    assert not (place / "none" / "run.json").exists()
+    with pytest.raises(UsageError, match="did you mean 'pixels'"):
+        run(place, "pixel", "none")
+
+
+def test_a_new_state_is_reached_by_the_true_motion() -> None:
+    """Where the predicted axis points the other way, the motion does, too."""
+    true = articulation()
+    longer = torch.cat([true.motion_BTP, torch.tensor([[[0.0, 0.0, 0.3, 0.4]]])], dim=1)
+    flipped = Articulation(**{**vars(true), "axis_BP3": -true.axis_BP3})
+    moved = with_more_states(flipped, Articulation(**{**vars(true), "motion_BTP": longer}))
+    assert moved.motion_BTP[0, 2].tolist() == pytest.approx([0.0, 0.0, -0.3, -0.4], abs=1e-7)
+    assert flips(true, true).tolist() == [[1.0, 1.0, 1.0, 1.0]]
