@@ -82,7 +82,8 @@ def _face_colors(mesh: TriMesh, atlas: Floats) -> Floats:
 
 def _simplified(vertices: Floats, faces: Ints, tolerance: float) -> tuple[Floats, Ints]:
     """Fewer triangles of a closed body; what manifold3d does not take stays as it is."""
-    solid = m3.Manifold(m3.Mesh64(vertices, faces.astype(np.uint64)))
+    own = np.array(vertices), faces.astype(np.uint64, order="C")  # Frozen ones are refused.
+    solid = m3.Manifold(m3.Mesh64(*own))
     if solid.status() != m3.Error.NoError or solid.is_empty():
         return vertices, faces
     mesh = simplified(solid, tolerance).to_mesh64()

@@ -9,6 +9,7 @@ import numpy as np
 import tyro
 
 from artgen.core.errors import UsageError
+from artgen.export.layout import MANIFEST
 from artgen.progress import progress
 from artgen.rules import rule_names
 from model.data.library import Library, read_library
@@ -18,7 +19,7 @@ from model.data.soup import TOLERANCE
 
 @dataclass(frozen=True, kw_only=True)
 class TrainData:
-    """Build objects from seeds and keep them as colored triangles in one file, some kB each.
+    """Build objects from seeds, and read bundles, into one file of colored triangles, some kB each.
 
     `artgen train` ray-casts its images from such a library, on a GPU or a CPU, so that neither
     Blender nor rendered images are needed where a model is trained. An interrupted run resumes with
@@ -28,7 +29,9 @@ class TrainData:
     categories: tuple[str, ...] = ()
     """Which categories; all that `artgen categories` lists when none is named."""
     count: int = 1000
-    """How many objects in all, dealt out to the categories in turn."""
+    """How many objects in all, dealt out to the categories in turn; 0 for bundles alone."""
+    bundles: tuple[Path, ...] = ()
+    """Folders with bundles at any depth, such as those of `artgen assemble` or `artgen ingest`."""
     seed: int = 0
     """Root of all randomness; object i of a category is the one that `artgen generate` makes."""
     tolerance: float = TOLERANCE
@@ -43,19 +46,41 @@ def train_data(argv: Sequence[str]) -> int:
     """Objects from seeds as a small file that `artgen train` casts its images from."""
     command = tyro.cli(TrainData, args=list(argv), prog="artgen train-data")
     names = command.categories or tuple(rule_names())
-    if command.count < len(names) or command.workers < 1 or command.tolerance < 0.0:
+    bundles = found_bundles(command.bundles)
+    enough = command.count >= len(names) or (command.count == 0 and bundles)
+    if not enough or command.workers < 1 or command.tolerance < 0.0:
         raise UsageError(
-            f"--count {command.count} must be at least the {len(names)} categories, --workers "
-            f"{command.workers} at least 1, --tolerance {command.tolerance} at least 0"
+            f"--count {command.count} must be at least the {len(names)} categories, or 0 with "
+            f"--bundles; --workers {command.workers} at least 1, --tolerance {command.tolerance} "
+            "at least 0"
         )
     request = Request(
-        counts=dealt(names, command.count), seed=command.seed, tolerance=command.tolerance
+        counts=dealt(names, command.count) if command.count else {},
+        seed=command.seed,
+        tolerance=command.tolerance,
+        bundles=bundles,
     )
     failed = make_library(command.out, request, workers=command.workers, show=progress)
     for asset_id, reason in sorted(failed.items()):
         print(f"{asset_id}: {reason}")  # noqa: T201
     print(f"{command.out}: {described(read_library(command.out), command.out)}")  # noqa: T201
     return int(bool(failed))
+
+
+def found_bundles(folders: Sequence[Path]) -> tuple[Path, ...]:
+    """Every bundle in the folders, sorted; those in `failed/` of a run did not pass and stay out.
+
+    Raises:
+        UsageError: a folder holds none.
+    """
+    found: list[Path] = []
+    for folder in folders:
+        places = [path.parent for path in sorted(folder.rglob(MANIFEST))]
+        passed = [place for place in places if "failed" not in place.relative_to(folder).parts]
+        if not passed:
+            raise UsageError(f"{folder}: holds no bundle; make some with `artgen assemble`")
+        found += passed
+    return tuple(found)
 
 
 def described(library: Library, path: Path) -> str:

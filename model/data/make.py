@@ -1,19 +1,24 @@
-"""Libraries made from seeds, in many processes; what an interrupted run finished is kept."""
+"""Libraries made from seeds and bundles, in many processes; what an interrupted run finished is
+kept."""
 
 import dataclasses
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from artgen import __version__
 from artgen.core.errors import ArtgenError, ModelError
-from artgen.core.jsonio import content_hash
+from artgen.core.jsonio import content_hash, file_hash
+from artgen.export.layout import MANIFEST
 from artgen.pool import run_in_processes
 from artgen.progress import Show
 from artgen.rules import load_rule
-from model.data.library import joined, packed, read_library, write_library
-from model.data.soup import seed_soup
+from model.data.bundle_soup import bundle_soup
+from model.data.library import Library, joined, packed, read_library, write_library
+from model.data.soup import Soup, seed_soup
 
 CHUNK = 20
 """Objects a task: one to four seconds of work."""
@@ -22,16 +27,18 @@ TASK_TIMEOUT_S = 600.0
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """Which library: indices 0 up to a count of each category, at one seed.
+    """Which library: indices 0 up to a count of each category, at one seed, and bundles.
 
     Attributes:
         counts: category to number of objects.
+        bundles: folders of bundles.
         tolerance: radii by which triangles may leave the exact shape.
     """
 
     counts: Mapping[str, int]
     seed: int
     tolerance: float
+    bundles: tuple[Path, ...] = ()
 
     @property
     def made(self) -> dict[str, object]:
@@ -42,12 +49,16 @@ class Request:
             "tolerance": self.tolerance,
             "rules": {name: load_rule(name).digest for name in self.counts},
             "artgen": __version__,
+            **({"bundles": self._hashes()} if self.bundles else {}),
         }
+
+    def _hashes(self) -> list[str]:
+        return [file_hash(folder / MANIFEST) for folder in self.bundles]
 
 
 @dataclass(frozen=True, kw_only=True)
 class SoupTask:
-    """Objects `start` up to `stop` of a category, into a file."""
+    """Objects `start` up to `stop` of a category, or bundles, into a file."""
 
     category: str
     seed: int
@@ -55,11 +66,21 @@ class SoupTask:
     stop: int
     tolerance: float
     path: Path
+    bundles: tuple[Path, ...] = ()
 
     @property
     def asset_id(self) -> str:
         """Names the task in messages."""
         return f"{self.category}_{self.start:06d}"
+
+    def soups(self) -> Iterator[tuple[str, Callable[[], Soup]]]:
+        """Names of the objects, and what builds each."""
+        for folder in self.bundles:
+            yield folder.as_posix(), partial(bundle_soup, folder, tolerance=self.tolerance)
+        for index in range(self.start, self.stop if not self.bundles else self.start):
+            name = f"{self.category}_{index:06d}"
+            build = partial(seed_soup, self.category, self.seed, index, tolerance=self.tolerance)
+            yield name, build
 
 
 def dealt(categories: Sequence[str], count: int) -> dict[str, int]:
@@ -91,13 +112,15 @@ def make_library(path: Path, request: Request, *, workers: int, show: Show) -> M
         for name in _chunks(missing, workers):
             advance(name)
     libraries = [read_library(task.path) for task in tasks]
-    write_library(path, joined(libraries, made=made))
+    whole = joined(libraries, made=made)
+    _check_names(path, whole)
+    write_library(path, whole)
     shutil.rmtree(folder.parent)
     return {name: str(why) for library in libraries for name, why in library.made.items()}
 
 
 def _tasks(request: Request, folder: Path) -> list[SoupTask]:
-    return [
+    tasks = [
         SoupTask(
             category=category,
             seed=request.seed,
@@ -109,6 +132,27 @@ def _tasks(request: Request, folder: Path) -> list[SoupTask]:
         for category, count in request.counts.items()
         for start in range(0, count, CHUNK)
     ]
+    first = SoupTask(
+        category="bundles", seed=0, start=0, stop=0, tolerance=request.tolerance, path=folder
+    )
+    return tasks + [
+        dataclasses.replace(
+            first,
+            start=start,
+            path=folder / f"bundles_{start:06d}.npz",
+            bundles=request.bundles[start : start + CHUNK],
+        )
+        for start in range(0, len(request.bundles), CHUNK)
+    ]
+
+
+def _check_names(path: Path, library: Library) -> None:
+    repeated = [name for name, count in Counter(library.ids).items() if count > 1]
+    if repeated:
+        raise ModelError(
+            f"{path}: {len(repeated)} objects have the id of another, such as {repeated[0]}; name "
+            "bundles of other ids, or leave that category out"
+        )
 
 
 def _chunks(tasks: Sequence[SoupTask], workers: int) -> Iterator[str]:
@@ -133,11 +177,11 @@ def make_chunk(task: SoupTask) -> str:
         ModelError: all failed.
     """
     soups, failed = [], {}
-    for index in range(task.start, task.stop):
+    for name, build in task.soups():
         try:
-            soups.append(seed_soup(task.category, task.seed, index, tolerance=task.tolerance))
+            soups.append(build())
         except ArtgenError as error:
-            failed[f"{task.category}_{index:06d}"] = str(error)
+            failed[name] = str(error)
     if not soups:
         raise ModelError(f"none of {len(failed)} objects could be built: {failed}")
     write_library(task.path, dataclasses.replace(packed(soups), made=failed))

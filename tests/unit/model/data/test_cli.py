@@ -3,6 +3,8 @@ import pytest
 from artgen.core.errors import ModelError, UsageError
 from model.data.cli import train_data
 from model.data.library import read_library
+from tests.strategies import drawer_unit
+from tests.unit.model.data.small import written_bundle
 
 
 def test_one_command_makes_a_library_and_says_what_it_holds(tmp_path, capsys):
@@ -19,6 +21,17 @@ def test_one_command_makes_a_library_and_says_what_it_holds(tmp_path, capsys):
     assert path.read_bytes() == before
     with pytest.raises(ModelError, match="holds another library"):
         train_data([*words[:-1], "0.03"])
+
+
+def test_bundles_alone(tmp_path, capsys):
+    written_bundle(drawer_unit(), tmp_path / "run" / "assets" / "a")
+    written_bundle(drawer_unit(), tmp_path / "run" / "failed" / "b")
+    words = ["--count", "0", "--bundles", str(tmp_path / "run"), "--out", str(tmp_path / "a.npz")]
+    assert train_data([*words, "--workers", "1"]) == 0
+    assert read_library(tmp_path / "a.npz").ids == (drawer_unit().asset_id,)
+    assert "1 objects of 1 categories" in capsys.readouterr().out
+    with pytest.raises(UsageError, match="holds no bundle"):
+        train_data([*words[:3], str(tmp_path / "run" / "failed" / "b" / "meshes")])
 
 
 @pytest.mark.parametrize("words", [["--count", "2"], ["--workers", "0"], ["--tolerance", "-1"]])

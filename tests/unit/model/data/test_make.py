@@ -1,3 +1,5 @@
+import dataclasses
+
 import pytest
 
 from artgen.core.errors import ModelError
@@ -5,6 +7,8 @@ from artgen.progress import silent
 from model.data import make
 from model.data.library import read_library
 from model.data.make import Request, dealt, make_library
+from tests.strategies import drawer_unit
+from tests.unit.model.data.small import written_bundle
 
 REQUEST = Request(counts={"cabinet": 3, "cardboard_box": 2}, seed=4, tolerance=0.02)
 
@@ -74,6 +78,17 @@ def test_an_object_that_cannot_be_built_is_reported(tmp_path, monkeypatch):
         "cardboard_box_000001": "no valid sample",
     }
     assert len(read_library(tmp_path / "a.npz")) == 3
+
+
+def test_bundles_join_and_ids_must_differ(tmp_path, monkeypatch):
+    monkeypatch.setattr(make, "run_in_processes", lambda tasks, work, **_: map(work, tasks))
+    folder = written_bundle(drawer_unit(), tmp_path / "bundle")
+    request = dataclasses.replace(REQUEST, counts={"cabinet": 1}, bundles=(folder,))
+    make_library(tmp_path / "a.npz", request, workers=1, show=silent)
+    assert read_library(tmp_path / "a.npz").ids == ("cabinet_000000", drawer_unit().asset_id)
+    twice = dataclasses.replace(request, bundles=(folder, folder))
+    with pytest.raises(ModelError, match="1 objects have the id of another"):
+        make_library(tmp_path / "b.npz", twice, workers=1, show=silent)
 
 
 def test_a_chunk_of_failures_is_an_error(tmp_path, monkeypatch):
