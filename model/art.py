@@ -53,6 +53,14 @@ class Art(nn.Module):
         self.field_head = None if planes is None else FieldHead(config.field, planes.channels)
         initialize(self)
 
+    @property
+    def encoder_identity(self) -> str:
+        """Name and sha256 of the weights that its encoder came with; empty where it had none.
+
+        Such weights stay out of the network's own files, which must name them.
+        """
+        return "" if self.images.encoder is None else self.images.encoder.identity
+
     def forward(self, images: Images, valid_BP: Tensor) -> Prediction:
         """What the first P slots hold.
 

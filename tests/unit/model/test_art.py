@@ -1,15 +1,18 @@
 """Laws of the whole network: what it may depend on, and what it may not."""
 
 import dataclasses
+from pathlib import Path
 
 import pytest
 import torch
 from torch import Tensor
 
 from artgen.core.errors import ModelError
+from artgen.core.jsonio import file_hash
 from model.art import Art
 from model.batch import FIXED, PRISMATIC, REVOLUTE
 from model.config import ModelConfig
+from model.encoders.vit import HEAD, VisionTransformer
 from model.prediction import Prediction
 from model.recipes import MODELS
 from tests.unit.model.tiny_art import (
@@ -203,6 +206,21 @@ def test_counting_does_not_look_at_the_slots_in_use() -> None:
     few, many = (art(images, held(counts)).count_logits_BQ for counts in ((1, 1), (4, 4)))
     assert few is not None
     assert torch.equal(few, many)
+
+
+def test_a_network_names_the_weights_that_its_encoder_came_with(tmp_path: Path) -> None:
+    assert made(TINY).encoder_identity == ""
+    own = dataclasses.replace(TINY, images=dataclasses.replace(TINY.images, encoder="conv"))
+    assert made(own).encoder_identity == ""
+    vit = VisionTransformer(width=HEAD, depth=1, patch=4, places=4, registers=0)
+    path = tmp_path / "dinov2_tiny.pth"
+    torch.save(vit.state_dict(), path)
+    lent = dataclasses.replace(own.images, encoder=f"dinov2:{tmp_path}")
+    art = made(dataclasses.replace(TINY, images=lent))
+    assert art.encoder_identity == f"dinov2 {file_hash(path)}"
+    said = art(drawn_images(15), held((3, 4)))
+    said.articulation.center_BP3.sum().backward()
+    assert all(weights.grad is None for weights in art.images.encoder.parameters())  # type: ignore[union-attr]
 
 
 def test_fewer_states_than_the_table_are_accepted(art: Art) -> None:

@@ -43,6 +43,13 @@ def test_slopes_are_finite_on_flat_black_too() -> None:
         assert ours.grad.isfinite().all()
 
 
+def test_slopes_are_right() -> None:
+    """Along random directions, in float64; kinks of ReLU6 have measure zero."""
+    measure = distance().double()
+    ours, theirs = (images(seed, 1)[..., :8, :8].double() for seed in (7, 8))
+    assert torch.autograd.gradcheck(measure, (ours.requires_grad_(), theirs), fast_mode=True)
+
+
 def test_its_network_neither_learns_nor_changes() -> None:
     measure = distance()
     measure.train()
