@@ -39,7 +39,7 @@ from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
 from model.reconstruct.physics import DENSITY, LEAST, forces, weights
 from model.reconstruct.scene import Scene
 from model.reconstruct.shapes import shape_of
-from model.reconstruct.skin import ColorAt, colored, nearest_color
+from model.reconstruct.skin import ColorAt, PaintOver, colored, nearest_color
 
 CATEGORY = "reconstructed"
 CLEARANCE = 1e-3
@@ -74,6 +74,7 @@ class Assembled:
 
     Attributes:
         images: those of its only surface, for `TextureLibrary.keep`.
+        colors: part name to the predicted colors, object frame.
         names: slot to part name.
         shift: (3,) m, from the sphere's middle to the object frame.
         states: joint name to q in each state of the images, rad or m.
@@ -82,6 +83,7 @@ class Assembled:
 
     object: ArticulatedObject
     images: TextureSet
+    colors: Mapping[str, ColorAt]
     names: Mapping[int, str]
     shift: Floats
     states: tuple[Mapping[str, float], ...]
@@ -93,6 +95,11 @@ class Assembled:
         if self.images.color is None:
             raise ModelError("a reconstruction has no color image; color it first")
         return self.images.color
+
+    def painted(self, over: PaintOver) -> "Assembled":
+        """The same with other colors over the predicted ones."""
+        whole, images = colored(self.object, self.colors, over=over)
+        return dataclasses.replace(self, object=whole, images=images)
 
 
 def assemble(
@@ -126,10 +133,12 @@ def assemble(
         rounder=lambda bodies: [],
         provenance={**(provenance or {}), "changes": list(scene.changes)},
     )
-    whole, images = colored(bare, _colors(guess, names, shift))
+    colors = _colors(guess, names, shift)
+    whole, images = colored(bare, colors)
     return Assembled(
         object=whole,
         images=images,
+        colors=colors,
         names=names,
         shift=shift,
         states=_states(joints, scene, names),

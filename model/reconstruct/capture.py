@@ -33,6 +33,18 @@ class Capture:
     camera_from_world: Floats
     states: tuple[int, ...]
 
+    def thinned(self, views: int) -> "Capture":
+        """At most so many views a state, evenly spread over those there are."""
+        count = self.rgba.shape[1]
+        chosen = sorted({int(k) for k in np.linspace(0, count - 1, min(views, count)).round()})
+        return Capture(
+            files=tuple(tuple(row[k] for k in chosen) for row in self.files),
+            rgba=self.rgba[:, chosen],
+            intrinsics=self.intrinsics[:, chosen],
+            camera_from_world=self.camera_from_world[:, chosen],
+            states=self.states,
+        )
+
 
 def read_capture(
     images: Path, rig: Rig, *, masks: Path | None = None, segmenter: Segmenter | None = None

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import tyro
 from rich.console import Console
@@ -53,6 +53,8 @@ class Reconstruct:
     """An installed segmenter (entry point in artgen.segmenters) for images without alpha."""
     resolution: int = RESOLUTION
     """Grid on which each part's surface is looked for, 8 to 512."""
+    colors: Literal["photos", "field"] = "photos"
+    """photos: those of the images where they show a point, else the field's; field: its alone."""
     category: str = CATEGORY
     """Category of the bundle; one that `artgen categories` lists is held to its sizes."""
     density: float = DENSITY
@@ -105,6 +107,7 @@ def ordered(command: Reconstruct) -> run.Order:
             clearance=command.clearance,
             density=command.density,
         ),
+        photos=command.colors == "photos",
         films=command.films,
     )
 

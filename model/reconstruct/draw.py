@@ -15,7 +15,7 @@ from artgen.core.mesh import Floats
 from artgen.core.transform import apply, inverted
 
 Bytes = NDArray[np.uint8]
-DIM = 0.6
+DIM = 0.7
 """Brightness of a face seen edge on; colors of a reconstruction hold light already."""
 MOST_SHADES = 128
 """Colors of a GIF's palette."""
@@ -26,9 +26,11 @@ class Painter:
 
     Args:
         image: (S, S, 3) uint8 sRGB on the atlas.
+        dim: brightness of a face seen edge on; 1 shows the image as it is.
     """
 
-    def __init__(self, obj: ArticulatedObject, image: Bytes) -> None:
+    def __init__(self, obj: ArticulatedObject, image: Bytes, *, dim: float = DIM) -> None:
+        self._dim = dim
         self._obj = obj
         self._image = image
         self._atlas = np.concatenate([np.asarray(part.mesh.atlas) for part in obj.parts])
@@ -90,7 +92,7 @@ class Painter:
         column = (place[:, 0] * side).astype(np.int64).clip(0, side - 1)
         row = ((1.0 - place[:, 1]) * side).astype(np.int64).clip(0, side - 1)
         length = np.sqrt(area) * np.linalg.norm(ways, axis=1)
-        shade = DIM + (1.0 - DIM) * np.abs(slope) / length
+        shade = self._dim + (1.0 - self._dim) * np.abs(slope) / length
         return np.rint(self._image[row, column] * shade[:, None]).astype(np.uint8)
 
 

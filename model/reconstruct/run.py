@@ -25,6 +25,7 @@ from model.reconstruct.draw import Painter
 from model.reconstruct.guess import Surface, object_guess
 from model.reconstruct.hull import VisualHull, check_cameras
 from model.reconstruct.masks import found_segmenter
+from model.reconstruct.photo import Photo, PhotoColors
 from model.reconstruct.record import record
 from model.reconstruct.rig import read_rig
 from model.reconstruct.sight import Sphere, in_object, network_images, sphere_of
@@ -48,6 +49,7 @@ class Order:
         masks: folder of mask files; None where alpha, or the camera file, tells the foreground.
         segmenter: name of an installed one; empty for none.
         resolution: of the grid that each part is extracted on.
+        photos: whether the colors come from the images where they show them, else from the field.
         films: whether GIFs and the reprojection are made.
     """
 
@@ -60,6 +62,7 @@ class Order:
     segmenter: str
     resolution: int
     wishes: Wishes
+    photos: bool = True
     films: bool = True
 
 
@@ -128,7 +131,10 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
     watch.lap("checkpoint")
     capture, sphere = seen_object(order)
     images = network_images(
-        capture, sphere, size=config.data.input_px, background=config.data.background
+        capture.thinned(config.data.views),
+        sphere,
+        size=config.data.input_px,
+        background=config.data.background,
     )
     watch.lap("images")
     prediction = predict(art, config, images, parts=order.parts)
@@ -138,12 +144,16 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
     guess = object_guess(prediction.articulation, 0, surfaces, radius=sphere.radius_m)
     provenance = {"source": "reconstruction", "checkpoint": file_hash(order.checkpoint)}
     assembled = assemble(guess, order.wishes, provenance=provenance)
+    if order.photos:
+        assembled = assembled.painted(
+            PhotoColors(assembled.object, photos(capture, sphere, assembled))
+        )
     watch.lap("assembly")
     report: list[Report] = []
 
     def fill(folder: Path) -> None:
         painter = Painter(assembled.object, assembled.color)
-        seen = reprojections(capture, sphere, assembled, painter, size=films.SIDE)
+        seen = reprojections(capture, sphere, assembled, size=films.SIDE)
         if order.films:
             write_films(folder, assembled, painter, seen)
         watch.lap("films")
@@ -197,15 +207,31 @@ def part_surfaces(prediction: Prediction, sphere: Sphere, *, resolution: int) ->
     }
 
 
+def photos(capture: Capture, sphere: Sphere, assembled: Assembled) -> list[Photo]:
+    """Every input image with the state that the network saw in it."""
+    states, views = capture.rgba.shape[:2]
+    return [
+        Photo(
+            rgba=capture.rgba[t, v],
+            intrinsics=capture.intrinsics[t, v],
+            camera_from_object=in_object(capture.camera_from_world[t, v], sphere, assembled.shift),
+            state=assembled.states[t] if t < len(assembled.states) else {},
+        )
+        for t in range(states)
+        for v in range(views)
+    ]
+
+
 def told_checkpoint(path: Path, config: Config) -> dict[str, str]:
     """Which network it was."""
     return {"sha256": file_hash(path), "recipe": config.recipe, "size": config.size}
 
 
 def reprojections(
-    capture: Capture, sphere: Sphere, assembled: Assembled, painter: Painter, *, size: int
+    capture: Capture, sphere: Sphere, assembled: Assembled, *, size: int
 ) -> list[films.Reprojection]:
-    """Every input image beside the object in the predicted state."""
+    """Every input image beside the object in the predicted state, without a lamp of ours."""
+    painter = Painter(assembled.object, assembled.color, dim=1.0)
     images = network_images(capture, sphere, size=size, background="white")
     rgb = images.rgb_BTV3HW[0].permute(0, 1, 3, 4, 2).numpy()
     alpha = images.alpha_BTVHW[0, ..., None].numpy()

@@ -8,14 +8,18 @@ from scipy.spatial import cKDTree
 
 from artgen.articulation.types import ArticulatedObject
 from artgen.core.mesh import Floats
+from artgen.geometry.normals import unit
 from artgen.textures.atlas import LINEAR, framed
-from artgen.textures.images import TextureSet
+from artgen.textures.images import Image, TextureSet
 from artgen.textures.picture import picture_surface
 from artgen.textures.raster import touched_texels
 from model.reconstruct.guess import GRAY
 
 ColorAt = Callable[[Floats], Floats]
 """(N, 3) points, m, to (N, 3) sRGB in [0, 1]."""
+
+PaintOver = Callable[[str, Floats, Floats, Floats], Floats]
+"""Part, (N, 3) points at rest, m, their unit normals and colors so far, to (N, 3) colors."""
 
 SIZE = 512
 """Texels along a side, as many as the atlas of a bundle has."""
@@ -40,14 +44,15 @@ def nearest_color(vertices: Floats, rgb: Floats) -> ColorAt:
 
 
 def colored(
-    obj: ArticulatedObject, colors: Mapping[str, ColorAt]
+    obj: ArticulatedObject, colors: Mapping[str, ColorAt], *, over: PaintOver | None = None
 ) -> tuple[ArticulatedObject, TextureSet]:
-    """The object with one surface for all parts, and its image; `colors` by part name.
+    """The object with one surface for all parts, and its image; `colors` by part name, `over`
+    painted over them.
 
     The metric coordinates become those of the atlas, at the scale that keeps lengths right in the
     mean, so that GLB and USD show the image that OBJ shows.
     """
-    image = _image(obj, colors)
+    image = _image(obj, colors, over)
     side = _meters_across(obj)
     images = TextureSet(color=image)
     skin = picture_surface("skin", images, tile=(side, side), roughness=ROUGHNESS)
@@ -65,17 +70,22 @@ def colored(
     return dataclasses.replace(obj, parts=parts, surfaces=(skin,)), images
 
 
-def _image(obj: ArticulatedObject, colors: Mapping[str, ColorAt]) -> np.ndarray:  # type: ignore[type-arg]
+def _image(obj: ArticulatedObject, colors: Mapping[str, ColorAt], over: PaintOver | None) -> Image:
     atlas = np.concatenate([np.asarray(part.mesh.atlas) for part in obj.parts])
     corners = np.concatenate([part.mesh.triangles for part in obj.parts])
     owner = np.repeat(np.arange(len(obj.parts)), [len(part.mesh.faces) for part in obj.parts])
     texels = touched_texels(atlas, SIZE)
     place = np.einsum("nc,nck->nk", texels.weights, corners[texels.triangle])
+    a, b, c = corners.transpose(1, 0, 2)
+    normals = unit(np.cross(b - a, c - a))[texels.triangle]
     light = np.zeros((len(place), 3))
     for k, part in enumerate(obj.parts):
         own = owner[texels.triangle] == k
         if own.any():
-            light[own] = linear(colors[part.name](place[own]))
+            rgb = colors[part.name](place[own])
+            if over is not None:
+                rgb = over(part.name, place[own], normals[own], rgb)
+            light[own] = linear(rgb)
     return framed(texels, light, SIZE)
 
 

@@ -35,7 +35,7 @@ def cameras(points: Floats, *, size: int = SIZE) -> list[Camera]:
 
 def photographed(done: Assembled, folder: Path, *, size: int = SIZE) -> Path:
     """A folder with `state_T/view_V.png` and `cameras.json`; the world is the object frame."""
-    painter = Painter(done.object, done.color)
+    painter = Painter(done.object, done.color, dim=1.0)
     points = np.concatenate([painter.points(state) for state in STATES])
     views = []
     for t, state in enumerate(STATES):

@@ -42,6 +42,13 @@ def test_states_and_views_keep_the_order_of_the_file(capture: Capture) -> None:
     assert capture.rgba.shape == (2, 4, 96, 96, 4)
 
 
+def test_views_are_thinned_evenly(capture: Capture) -> None:
+    found = capture.thinned(2)
+    assert [path.name for path in found.files[1]] == ["view_0.png", "view_3.png"]
+    assert np.array_equal(found.rgba, capture.rgba[:, [0, 3]])
+    assert capture.thinned(9).files == capture.files
+
+
 def test_an_image_of_another_size_is_told(folder: Path) -> None:
     repainted(folder / "state_1/view_2.png", lambda pixels: pixels[:-3])
     with pytest.raises(ModelError, match=r"view_2.png is 96 x 93 px, .*view_0.png is 96 x 96"):

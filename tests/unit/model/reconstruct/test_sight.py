@@ -5,7 +5,6 @@ import torch
 
 from model.reconstruct.assemble import Assembled
 from model.reconstruct.capture import Capture
-from model.reconstruct.draw import Painter
 from model.reconstruct.run import reprojections
 from model.reconstruct.sight import Sphere, in_object, in_radii, network_images
 from tests.unit.model.reconstruct.perfect import RADIUS
@@ -19,8 +18,7 @@ def sphere(perfect: Assembled, *, unit: float = 1.0) -> Sphere:
 def test_the_object_reprojects_onto_its_photographs(perfect: Assembled, capture: Capture) -> None:
     """The painter drew the photographs, so silhouettes differ by the crop's resampling alone: a
     border of half a px around shapes of some 90 px."""
-    painter = Painter(perfect.object, perfect.color)
-    for own in reprojections(capture, sphere(perfect), perfect, painter, size=96):
+    for own in reprojections(capture, sphere(perfect), perfect, size=96):
         assert own.iou >= 0.96
         both = (own.seen[..., 3] > 250) & (own.shown[..., 3] > 250)
         off = np.abs(own.seen[both].astype(int) - own.shown[both])[:, :3]

@@ -1,0 +1,74 @@
+"""Photographs color what they show, and only that."""
+
+import dataclasses
+
+import numpy as np
+
+from artgen.geometry.normals import face_vectors
+from model.reconstruct.assemble import Assembled
+from model.reconstruct.capture import Capture
+from model.reconstruct.draw import Painter
+from model.reconstruct.photo import DOUBT, PhotoColors
+from model.reconstruct.run import photos
+from tests.unit.model.reconstruct.perfect import COLORS
+from tests.unit.model.reconstruct.test_sight import sphere
+
+GRAY = 0.25
+
+
+def gray(points: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
+    return np.full((len(points), 3), GRAY)
+
+
+def painted(perfect: Assembled, capture: Capture) -> Assembled:
+    """The cabinet, predicted gray, in the colors of its photographs."""
+    blank = dataclasses.replace(perfect, colors={name: gray for name in perfect.colors})
+    shown = photos(capture, sphere(perfect), perfect)
+    return blank.painted(PhotoColors(perfect.object, shown))
+
+
+def test_faces_that_a_camera_sees_take_its_color(perfect: Assembled, capture: Capture) -> None:
+    """The door's front is seen squarely twice in each state: gray keeps a share of DOUBT over
+    DOUBT + 2 x 0.3, some 0.08 of a difference of 0.5 at most, and bytes are rounded twice."""
+    found = painted(perfect, capture)
+    door = found.object.parts[1]
+    normals = face_vectors(door.mesh)
+    front = normals[:, 1] < -0.99 * np.linalg.norm(normals, axis=1)
+    middles = np.asarray(door.mesh.atlas)[front].mean(axis=1)
+    side = len(found.color)
+    column, row = (middles[:, 0] * side).astype(int), ((1 - middles[:, 1]) * side).astype(int)
+    expected = 255.0 * np.array(COLORS[1])
+    assert np.abs(found.color[row, column] - expected).max() <= 255.0 * 0.5 * DOUBT / 0.6 + 2.0
+
+
+def test_what_no_camera_sees_keeps_the_predicted_color(
+    perfect: Assembled, capture: Capture
+) -> None:
+    """The bottom of the base looks down, and all cameras stand above."""
+    paint = PhotoColors(perfect.object, photos(capture, sphere(perfect), perfect))
+    points = np.array([[0.0, 0.0, 0.0], [0.1, 0.1, 0.0]])
+    normals = np.tile([0.0, 0.0, -1.0], (2, 1))
+    assert np.array_equal(paint("base", points, normals, gray(points)), gray(points))
+
+
+def test_hidden_faces_are_not_painted_through(perfect: Assembled, capture: Capture) -> None:
+    """The inner face of the base's back wall, behind the drawer, faces the front cameras."""
+    paint = PhotoColors(perfect.object, photos(capture, sphere(perfect), perfect))
+    low, high = perfect.object.parts[2].mesh.bounds
+    hidden = np.array([[0.0, high[1] + 0.02, (low[2] + high[2]) / 2.0 - 0.06]])
+    found = paint("base", hidden, np.array([[0.0, -1.0, 0.0]]), gray(hidden))
+    assert np.array_equal(found, gray(hidden))
+
+
+def test_a_painter_without_its_lamp_shows_the_image(perfect: Assembled) -> None:
+    """Every pixel is one of the three colors, to a step of a byte."""
+    painter = Painter(perfect.object, perfect.color, dim=1.0)
+    pose = np.eye(4)
+    pose[:3, :3] = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
+    pose[:3, 3] = [0.0, 0.4, 2.0]
+    matrix = np.array([[60.0, 0.0, 32.0], [0.0, 60.0, 32.0], [0.0, 0.0, 1.0]])
+    picture = painter.paint({}, matrix, pose, (64, 64))
+    seen = picture[picture[..., 3] > 0][:, :3].astype(float)
+    table = 255.0 * np.array(list(COLORS.values()))
+    assert len(seen) > 300
+    assert np.abs(seen[:, None] - table).max(axis=2).min(axis=1).max() <= 1.5
