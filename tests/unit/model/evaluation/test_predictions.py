@@ -8,7 +8,7 @@ import torch
 
 from artgen.core.errors import ModelError
 from model.batch import Articulation
-from model.evaluation.predictions import layout_of
+from model.evaluation.predictions import layout_of, with_observed_limits
 
 
 def articulation(**changes: torch.Tensor) -> Articulation:
@@ -61,3 +61,10 @@ def test_a_circle_of_parents_hangs_on_the_base() -> None:
 def test_a_layout_without_base_is_refused() -> None:
     with pytest.raises(ModelError, match="the base belongs there"):
         layout_of(articulation(valid_BP=torch.tensor([[False, True, True, True]])), 0, name="x")
+
+
+def test_limits_of_what_was_seen_hold_rest_and_all_states() -> None:
+    layout = with_observed_limits(layout_of(articulation(), 0))
+    assert layout.limits[1].tolist() == pytest.approx([0.0, math.pi / 2.0], abs=1e-15)
+    assert layout.limits[2].tolist() == pytest.approx([0.0, 0.2], abs=1e-7)
+    assert layout.limits[0].tolist() == [0.0, 0.0]
