@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 import torch
 from torch.utils.data import DataLoader, Dataset
 
-from artgen.core.errors import ModelError
+from artgen.core.errors import ArtgenError, ModelError
 from artgen.core.stream import Stream
 from model.batch import Batch
 from model.data.config import DataConfig
@@ -56,6 +56,8 @@ def batches(
         prefetch_factor=2 if config.workers else None,
     )
     for made in loader:
+        if isinstance(made, ArtgenError):
+            raise made
         yield made if isinstance(made, Batch) else source.batch(made, config, where)
 
 
@@ -70,7 +72,14 @@ class _Work(Dataset[Any]):
         self._first = rank * self._share
         self._row = source.order(config.seed)
 
-    def __getitem__(self, start: int) -> Batch | Sequence[Any]:
+    def __getitem__(self, start: int) -> Batch | Sequence[Any] | ArtgenError:
+        """Faults of ours are handed over as they are; torch would wrap them in tracebacks."""
+        try:
+            return self._made(start)
+        except ArtgenError as error:
+            return error
+
+    def _made(self, start: int) -> Batch | Sequence[Any]:
         places = range(start + self._first, start + self._first + self._share)
         if not self._shows:
             return [self._plan(place) for place in places]

@@ -78,6 +78,15 @@ def test_another_device_gives_the_same_batch_to_rounding():
     torch.testing.assert_close(together.rays.origin_BR3, alone.rays.origin_BR3)
 
 
+@pytest.mark.parametrize("workers", [0, 1])
+def test_a_fault_is_told_in_its_own_words(workers):
+    config = dataclasses.replace(CONFIG, slots=2, workers=workers)
+    with pytest.raises(ModelError) as caught:
+        next(batches(source(), config))
+    assert str(caught.value).endswith("do not fit into 2 slots; raise DataConfig.slots")
+    assert "\n" not in str(caught.value)
+
+
 @pytest.mark.parametrize(
     "options", [{"cursor": -1}, {"rank": 2, "world": 2}, {"rank": 0, "world": 3}]
 )
