@@ -25,6 +25,10 @@ WALL = 0.02
 """Of the part's diagonal: a shell whose hull is thinner than this in the mean is full."""
 CRUMB = 2e-5
 """Of the cube of the part's diagonal: a hollow of less room is not worth a cut."""
+FILM = 1e-7
+"""Of a solid: a cut along a face leaves films of no volume, which are no pieces."""
+PEEL = 0.05
+"""Of a chunk's area that a wall has at least to be taken off."""
 SHEET = 1e-3
 """m; thickness of the piece of a flat shell, behind its outer side."""
 ROUNDS = 6
@@ -92,7 +96,7 @@ def _cut(bodies: Sequence[Body], wall: float, most: int) -> list[Chunk]:
     while cuts < most and waiting[0][0] < -crumb:
         _, _, chunk = heapq.heappop(waiting)
         halves = list(_halves(chunk, wall))
-        for half in halves if len(halves) == 2 else [_settled(chunk)]:
+        for half in halves if len(halves) > 1 else [_settled(chunk)]:
             heapq.heappush(waiting, (-half.excess, serial, half))
             serial += 1
         cuts += 1
@@ -125,9 +129,7 @@ def _slack(chunk: Chunk) -> float:
     """m3 of a hull that its body does not fill; of a shell, all but a sheet."""
     if chunk.solid is not None:
         return float(chunk.hull.volume() - chunk.solid.volume())
-    a, b, c = chunk.corners.transpose(1, 0, 2)
-    area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2.0
-    return float(chunk.hull.volume() - area * SHEET)
+    return float(chunk.hull.volume() - _area(chunk.corners) * SHEET)
 
 
 def _bounds(hull: m3.Manifold) -> Floats:
@@ -164,8 +166,8 @@ def _settled(chunk: Chunk) -> Chunk:
 
 
 def _halves(chunk: Chunk, wall: float) -> Iterator[Chunk]:
-    """Both sides of the best cut that are not empty."""
-    axis, place = best_cut(chunk.corners, wall)
+    """Both sides of the best cut that are not empty; of a solid, every body that it falls into."""
+    axis, place = best_cut(chunk.corners, wall, solid=chunk.solid is not None)
     if chunk.solid is None:
         for side in clipped(chunk.corners, axis, place):
             if len(side):
@@ -173,35 +175,52 @@ def _halves(chunk: Chunk, wall: float) -> Iterator[Chunk]:
         return
     normal = np.eye(3)[axis]
     for half in chunk.solid.split_by_plane(normal, place):
-        if not half.is_empty() and half.volume() > 0.0:
-            mesh = half.to_mesh64()
-            points = np.asarray(mesh.vert_properties, np.float64)[:, :3]
-            yield _chunk(points[np.asarray(mesh.tri_verts, np.int64)], half, wall)
+        for body in half.decompose():
+            if body.volume() > FILM * chunk.solid.volume():
+                mesh = body.to_mesh64()
+                points = np.asarray(mesh.vert_properties, np.float64)[:, :3]
+                yield _chunk(points[np.asarray(mesh.tri_verts, np.int64)], body, wall)
 
 
-def best_cut(corners: Floats, wall: float) -> tuple[int, float]:
-    """Axis and place of the plane that leaves the least volume of boxes on both its sides."""
+def best_cut(corners: Floats, wall: float, *, solid: bool) -> tuple[int, float]:
+    """Axis and place of a plane to cut at: the one that leaves the least volume of boxes on both
+    its sides; where that saves nothing, the one that takes off the largest wall, as walls have to
+    be taken off a hollow one by one; where there is none, the middle of the longest side.
+
+    A wall of a solid has two sides, and the cut is its third.
+    """
+    thick, offsets = (2.0 * wall, (0.0,)) if solid else (wall, (-wall / 4.0, wall / 4.0))
     lower, upper = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-    pad = np.full(3, wall / 4.0)
-    whole = float(np.prod(upper - lower + pad))
-    best, found = GAIN * whole, (int(np.argmax(upper - lower)), np.nan)
+    pad = wall / 4.0
+    best, found = GAIN * float(np.prod(upper - lower + pad)), None
+    largest, peeled = PEEL * _area(corners), None
     for axis in range(3):
-        for place in _places(corners[..., axis], wall):
-            boxes = [np.ptp(side.reshape(-1, 3), axis=0) + pad
-                     for side in clipped(corners, axis, place) if len(side)]  # fmt: skip
-            volume = float(sum(np.prod(box) for box in boxes))
-            if len(boxes) == 2 and volume < best:
-                best, found = volume, (axis, place)
-    axis, place = found
-    return axis, float((lower[axis] + upper[axis]) / 2.0) if np.isnan(place) else place
+        for place in _places(corners[..., axis], wall, offsets):
+            sides = [side for side in clipped(corners, axis, place) if len(side)]
+            if len(sides) < 2:
+                continue
+            spans = [np.ptp(side.reshape(-1, 3), axis=0) for side in sides]
+            if (volume := float(sum(np.prod(span + pad) for span in spans))) < best:
+                best, found = volume, (axis, float(place))
+            for side, span in zip(sides, spans, strict=True):
+                area = _area(side)
+                if area > largest and np.prod(span) <= area / 2.0 * thick:
+                    largest, peeled = area, (axis, float(place))
+    axis = int(np.argmax(upper - lower))
+    return found or peeled or (axis, float((lower[axis] + upper[axis]) / 2.0))
 
 
-def _places(values: Floats, wall: float) -> Floats:
-    """Places just beside those where vertices are, which is where walls end."""
+def _area(corners: Floats) -> float:
+    edges = corners[:, 1:] - corners[:, :1]
+    return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()) / 2.0
+
+
+def _places(values: Floats, wall: float, offsets: Sequence[float]) -> Floats:
+    """Places where vertices are, which is where walls end, or just beside."""
     at = np.unique(np.round(values, 6))
     if len(at) > PLACES:
         at = at[np.linspace(0, len(at) - 1, PLACES).astype(int)]
-    beside = np.concatenate([at - wall / 4.0, at + wall / 4.0])
+    beside = np.concatenate([at + offset for offset in offsets])
     margin = 1e-6 + 0.01 * wall
     return np.unique(beside[(beside > at[0] + margin) & (beside < at[-1] - margin)])
 
