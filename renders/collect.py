@@ -147,6 +147,7 @@ def _meta(bundle: Bundle, plan: RenderPlan, shading: str, effects: Effects) -> S
         light=plan.job.rig.name,
         effects=effects,
         rendering=_rendering(plan),
+        donors=tuple(bundle.manifest.get("donors", ())),  # Only assembled bundles have some.
     )
 
 

@@ -14,6 +14,7 @@ from artgen.dataset.packing import PER_SHARD, Packing
 from artgen.dataset.publish import publish
 from artgen.dataset.repack import repack, restore
 from artgen.dataset.store import LocalStore, Store, opened_store, split_place
+from artgen.dataset.terms import refuse_bound_shards
 from artgen.dataset.verify import Damage, damages, folder_damages, shard_names
 from artgen.progress import progress
 from artgen.run_folder import locked
@@ -30,6 +31,8 @@ class Pack:
     """Folder of the run; receives shards/ and catalog/."""
     per_shard: int = PER_SHARD
     """Samples per shard; the same number gives the same shards."""
+    public: bool = False
+    """The set is to be handed on: refuse if an asset's licence forbids it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +65,8 @@ class Publish:
     """Folder of shards, or of the run that holds it."""
     url: Annotated[str, tyro.conf.Positional]
     """Such as s3://bucket/prefix."""
+    public: bool = False
+    """The place is open to others: refuse if an asset's licence forbids that."""
 
 
 def shard(argv: Sequence[str]) -> int:
@@ -75,7 +80,9 @@ def _pack(argv: Sequence[str]) -> int:
     _check_per_shard(command.per_shard)
     _check_folder(command.out)
     with locked(command.out):
-        made = shard_folder(command.out, per_shard=command.per_shard, show=progress)
+        made = shard_folder(
+            command.out, per_shard=command.per_shard, show=progress, public=command.public
+        )
     _tell(made.packing, made.shards)
     print(f"catalog: {made.catalog[0]}, {made.catalog[1]}")  # noqa: T201
     return _tell_left_out(made.packing.left_out)
@@ -123,6 +130,8 @@ def _publish(argv: Sequence[str]) -> int:
     command = tyro.cli(Publish, args=list(argv), prog="artgen shard publish")
     _check_folder(command.folder)
     folder = _shard_folder(command.folder)
+    if command.public:
+        refuse_bound_shards(folder)
     count = len(read_contents(LocalStore(folder)).shards)
     with progress("publish", count) as advance:
         shards: tuple[ListedShard, ...] = publish(folder, command.url, advance=advance)

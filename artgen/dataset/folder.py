@@ -8,6 +8,7 @@ from artgen.core.errors import ShardError
 from artgen.dataset.catalog import write_catalog
 from artgen.dataset.listing import listed_assets
 from artgen.dataset.packing import PER_SHARD, Packing, pack
+from artgen.dataset.terms import refuse_bound, terms_of, write_terms
 from artgen.progress import Show, silent
 
 
@@ -25,13 +26,19 @@ def shard_folder(
     *,
     per_shard: int = PER_SHARD,
     show: Show = silent,
+    public: bool = False,
 ) -> Sharded:
     """Pack `samples/<category>/<index>.tar` of every valid asset into `shards/`, write `catalog/`.
 
-    Failed assets and assets without a sample are left out and listed in `shards/dataset.json`.
+    Failed assets and assets without a sample are left out and listed in `shards/dataset.json`;
+    `shards/terms.json` says under which licences the others are.
+
+    Args:
+        public: the set is to be handed on.
 
     Raises:
-        ShardError: nothing can be packed, a sample is corrupt, or the disk refuses.
+        ShardError: nothing can be packed, a sample is corrupt, the disk refuses, or the set is
+            public and an asset may not be handed on.
     """
     staged, left_out = packable(out)
     if not staged:
@@ -39,7 +46,13 @@ def shard_folder(
             f"{out}: holds no sample of a valid asset; make some with `artgen generate` or "
             "`artgen render`"
         )
+    licences, bound = terms_of(
+        asset for asset in listed_assets(out) if asset.valid and asset.sample.exists()
+    )
+    if public:
+        refuse_bound(out, bound)
     packing = pack(staged, out / "shards", per_shard=per_shard, left_out=left_out, show=show)
+    write_terms(out / "shards", licences, bound)
     return Sharded(packing=packing, shards=out / "shards", catalog=write_catalog(out, packing))
 
 
