@@ -87,6 +87,9 @@ class Evaluate:
     """Whether parts labelled `handle` count in SINGAPO's published metrics."""
     gates: bool = True
     """Whether bundles, URDFs and what a network predicts are loaded and driven in MuJoCo."""
+    lpips: Path | None = None
+    """Folder with LPIPS's weights: AlexNet's of torchvision (alexnet*.pth) and the heads of the
+    package lpips (alex.pth). Without them LPIPS is null."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side, for folders."""
     train: Path | None = None
@@ -136,6 +139,7 @@ def judged_folder(command: Evaluate, protocol: Protocol) -> Report:
                 protocol=protocol,
                 gated=command.gates,
                 folder=command.out / "objects",
+                lpips=command.lpips,
             )
             for name in sorted(true)
         ]
@@ -165,6 +169,7 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
         "resolution": command.resolution,
         "samples": command.samples,
         "gated": command.gates,
+        "lpips": command.lpips,
     }
     module = import_module("model.evaluation.network_run")
     with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):

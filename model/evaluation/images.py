@@ -15,8 +15,8 @@ from artgen.core.errors import ModelError
 from artgen.core.mesh import Floats
 
 Mask = NDArray[np.bool_]
-Perceptual = Callable[[Floats, Floats], float]
-"""LPIPS of two images; there is none without the real weights."""
+Perceptual = Callable[[Floats, Floats], float | None]
+"""LPIPS of two images, None for small ones; there is none without the real weights."""
 
 MOST_DB = 100.0
 """PSNR of equal images, which would be infinite: an error of 1e-5 of the range."""

@@ -23,6 +23,7 @@ from model.data.soup_source import SoupSource
 from model.encoders.registry import make_encoder
 from model.evaluation.baselines import NearestNeighbor, mean_layouts
 from model.evaluation.held_out import CPU, HeldOut, held_out, held_out_config
+from model.evaluation.lpips import load_lpips
 from model.evaluation.pictures import strip
 from model.evaluation.predictions import layout_of
 from model.evaluation.predictors import (
@@ -51,6 +52,7 @@ class NetworkRun:
         count: objects at most, of the truth and of the training objects each.
         states, views, pixels: what baselines are shown; a network states its own.
         counts, resolution, samples, gated: as `ArtPredictor`.
+        lpips: folder of its weights, or None.
     """
 
     predictions: str
@@ -65,6 +67,7 @@ class NetworkRun:
     resolution: int
     samples: int
     gated: bool
+    lpips: Path | None = None
 
 
 def run(asked: NetworkRun, protocol: Protocol, folder: Path) -> list[Record]:
@@ -123,7 +126,15 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
     path = Path(asked.predictions)
     if path.is_file():
         art, config, _ = load_art(path)
-        own = ArtPredictor(art, config, asked.counts, asked.resolution, asked.samples, asked.gated)
+        own = ArtPredictor(
+            art=art,
+            config=config,
+            counts=asked.counts,
+            resolution=asked.resolution,
+            samples=asked.samples,
+            gated=asked.gated,
+            perceptual=None if asked.lpips is None else load_lpips(asked.lpips),
+        )
         return own, shown_to(config)
     if asked.train is None:
         raise UsageError(

@@ -20,7 +20,7 @@ from model.encoders.protocol import Encoder
 from model.evaluation.baselines import MeanLayout, NearestNeighbor, pixel_feature
 from model.evaluation.gates import Gates
 from model.evaluation.held_out import HeldOut, flips
-from model.evaluation.images import ImageScores, image_scores
+from model.evaluation.images import ImageScores, Perceptual, image_scores
 from model.evaluation.layout import Layout
 from model.evaluation.predictions import layout_of, with_observed_limits
 from model.evaluation.simulated import prediction_gates
@@ -93,6 +93,7 @@ class ArtPredictor:
         resolution: cells of marching cubes along a part; 0 makes no surfaces.
         samples: a ray, for images; 0 renders none.
         gated: whether the object is put together and driven in MuJoCo.
+        perceptual: LPIPS, where its weights are at hand.
     """
 
     art: Art
@@ -101,6 +102,7 @@ class ArtPredictor:
     resolution: int
     samples: int
     gated: bool
+    perceptual: Perceptual | None = None
 
     def __call__(self, item: HeldOut) -> Guess:
         """Looks at the images that are shown."""
@@ -157,6 +159,7 @@ class ArtPredictor:
                         _rows(true.rgb_BTV3HW[0, t, seen[1] + v]),
                         made.alpha_BTVHW[0, t, v].numpy() > 0.5,
                         true.alpha_BTVHW[0, t, seen[1] + v].numpy() > 0.5,
+                        perceptual=self.perceptual,
                     )
                 )
         return found

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from artgen.pool import run_in_processes
 from artgen.validate.subject import Source
 from model.evaluation.adapters.formats import FORMATS, Place
 from model.evaluation.gates import gates
-from model.evaluation.images import ImageScores, image_scores, over_white
+from model.evaluation.images import ImageScores, Perceptual, image_scores, over_white
 from model.evaluation.layout import Layout
 from model.evaluation.pictures import strip
 from model.evaluation.records import SCHEMA, keep_record, kept_record, picture_path
@@ -36,6 +37,7 @@ class Task:
     Attributes:
         predicted: None where there is no prediction.
         folder: receives the record and the picture.
+        lpips: folder of LPIPS's weights; None leaves it null.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Task:
     protocol: Protocol
     gated: bool
     folder: Path
+    lpips: Path | None = None
 
     @property
     def asset_id(self) -> str:
@@ -54,7 +57,8 @@ class Task:
     def key(self) -> str:
         """What the record depends on."""
         places = [self.predicted, self.true]
-        return content_hash([SCHEMA, self.protocol, self.gated, [_digests(own) for own in places]])
+        asked = [self.protocol, self.gated, self.lpips]
+        return content_hash([SCHEMA, asked, [_digests(own) for own in places]])
 
 
 def _digests(place: Place | None) -> list[list[str]]:
@@ -109,7 +113,7 @@ def _record(task: Task, true: Layout) -> Record:
     except ArtgenError as error:
         return failed(true, str(error))
     held = gates(_source(task.predicted)) if task.gated and _simulated(task.predicted) else None
-    images = {"images": list(image_pairs(task.predicted, task.true))}
+    images = {"images": list(image_pairs(task.predicted, task.true, perceptual_of(task.lpips)))}
     record = score(predicted, true, task.protocol, gates=held, images=images)
     write_bytes(picture_path(task.folder, task.name), strip(predicted, true))
     return record
@@ -125,7 +129,17 @@ def _source(place: Place) -> Source:
     return Source(format=SIMULATED[place.format], file=file, root=root)
 
 
-def image_pairs(predicted: Place, true: Place) -> Iterator[ImageScores]:
+def perceptual_of(folder: Path | None) -> Perceptual | None:
+    """LPIPS with the weights in a folder; torch is imported here, as nothing else needs it."""
+    if folder is None:
+        return None
+    perceptual: Perceptual = import_module("model.evaluation.lpips").load_lpips(folder)
+    return perceptual
+
+
+def image_pairs(
+    predicted: Place, true: Place, perceptual: Perceptual | None = None
+) -> Iterator[ImageScores]:
     """Scores of the images that both objects have under one name."""
     folders = [
         (own.path if own.path.is_dir() else own.path.parent) / IMAGES for own in (predicted, true)
@@ -134,7 +148,7 @@ def image_pairs(predicted: Place, true: Place) -> Iterator[ImageScores]:
         other = folders[0] / path.name
         if other.is_file():
             (mine, mask), (theirs, true_mask) = (over_white(_rgba(p)) for p in (other, path))
-            yield image_scores(mine, theirs, mask, true_mask)
+            yield image_scores(mine, theirs, mask, true_mask, perceptual=perceptual)
 
 
 def _rgba(path: Path) -> Floats:
