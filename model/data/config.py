@@ -42,6 +42,9 @@ class DataConfig:
         elevation_deg: range of the height of their cameras over the horizon.
         azimuth_deg: largest angle between their cameras and the front; 180 is all around.
         fill: share of a ray-cast image that the object fills, before the crop.
+        pose_noise_deg: deviation of a turn about each camera's axes between the poses that are
+            true and those that the network is told; rays stay true.
+        pose_noise: deviation of a shift along each axis, radii.
         workers: processes that prepare items; the batches are the same at any number.
     """
 
@@ -66,6 +69,8 @@ class DataConfig:
     elevation_deg: Range = (-10.0, 60.0)
     azimuth_deg: float = 180.0
     fill: float = 0.9
+    pose_noise_deg: float = 0.0
+    pose_noise: float = 0.0
     workers: int = 0
 
     def __post_init__(self) -> None:
@@ -94,6 +99,11 @@ class DataConfig:
             low, high = getattr(self, name)
             if not -90.0 < low <= high < 90.0 or (name == "fov_deg" and low <= 0.0):
                 raise ModelError(f"data: {name} {low}..{high} must ascend within 90 degrees")
+        if min(self.pose_noise_deg, self.pose_noise) < 0.0:
+            raise ModelError(
+                f"data: pose_noise_deg {self.pose_noise_deg} and pose_noise {self.pose_noise} must "
+                "be at least 0"
+            )
         if not (0.0 <= self.mask_share <= 1.0 and 0.0 < self.fill <= 1.0):
             raise ModelError(
                 f"data: mask_share {self.mask_share} must lie in [0, 1], fill {self.fill} in (0, 1]"

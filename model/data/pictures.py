@@ -17,7 +17,7 @@ from model.data.config import DataConfig
 from model.data.draws import background_color
 from model.data.pick import ray_draws
 from model.data.truth import Truth, truth
-from model.data.views import Views
+from model.data.views import Views, stated_views
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -28,7 +28,7 @@ class Pictures:
 
     Attributes:
         rgba: (T, V, H, W, 4) uint8 of the network's views.
-        inputs: their cameras.
+        inputs: their cameras, as the network is told them.
         targets: cameras of the target images, (N, 1, ...).
         state: (N,) state of each target image.
         target_rgba: (N, H, W, 4) uint8.
@@ -82,7 +82,11 @@ class Reading:
             category=self._facts["category"],
             truth=self._truth(states, config.slots),
             rgba=np.stack([np.stack([seen[t, v] for v in views]) for t in states]),
-            inputs=self._views([[(t, v) for v in views] for t in states]),
+            inputs=stated_views(
+                self._views([[(t, v) for v in views] for t in states]),
+                config,
+                stream.child("pose noise"),
+            ),
             targets=self._views([[pair] for pair in pairs]),
             state=np.repeat(np.arange(len(states)), len(others))[: len(pairs)],
             target_rgba=_stacked([self._rgba(t, v) for t, v in pairs]),

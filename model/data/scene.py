@@ -18,7 +18,7 @@ from model.data.look import Look, drawn_look
 from model.data.pick import ray_draws
 from model.data.soup import Soup
 from model.data.truth import Truth, truth
-from model.data.views import Views, drawn_views
+from model.data.views import Views, drawn_views, stated_views
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,6 +33,7 @@ class Scene:
         looks: (F, 6) float32 as `Soup.looks`, a triangle each, colors jittered.
         poses: (T, P, 4, 4) where parts at rest are in each state; identity in empty slots.
         inputs: the V cameras a state that the network sees, before the crop.
+        stated: the same as the network is told them.
         others: W cameras a state that supervise, or None.
         chosen: (T, W) which inputs supervise where there are no others.
         background: (3,) sRGB.
@@ -49,6 +50,7 @@ class Scene:
     looks: NDArray[np.float32]
     poses: NDArray[np.float32]
     inputs: Views
+    stated: Views
     others: Views | None
     chosen: NDArray[np.int64]
     look: Look
@@ -72,6 +74,7 @@ def drawn_scene(soup: Soup, config: DataConfig, stream: Stream) -> Scene:
     turned = np.einsum("tpij,pkj->tpki", poses[:, : len(corners), :3, :3], corners)
     points = turned + poses[:, : len(corners), None, :3, 3]
     seen = points.reshape(len(states), -1, 3)
+    inputs = _views(seen, config, stream.child("inputs"), config.views)
     look = drawn_look(len(soup.looks), stream.child("look"))
     looks = soup.looks.astype(np.float64)
     looks[:, :3] = np.clip(looks[:, :3] * look.gains, 0.0, 1.0)
@@ -85,7 +88,8 @@ def drawn_scene(soup: Soup, config: DataConfig, stream: Stream) -> Scene:
         body=soup.body,
         looks=looks.astype(np.float32)[soup.surface],
         poses=poses.astype(np.float32),
-        inputs=_views(seen, config, stream.child("inputs"), config.views),
+        inputs=inputs,
+        stated=stated_views(inputs, config, stream.child("pose noise")),
         others=_others(seen, config, stream.child("others")),
         chosen=chosen_views(config, config.views, stream.child("chosen")),
         look=look,

@@ -91,7 +91,7 @@ def shown(scenes: Sequence[Scene], config: DataConfig, device: torch.device) -> 
     rgba = photographs(stage, inputs, size=config.render_px)
     images = framed_images(
         rgba.view(len(scenes), config.states, config.views, *rgba.shape[2:]),
-        [scene.inputs for scene in scenes],
+        [scene.stated for scene in scenes],
         [scene.background for scene in scenes],
         size=config.input_px,
     )
@@ -99,14 +99,14 @@ def shown(scenes: Sequence[Scene], config: DataConfig, device: torch.device) -> 
         images=images,
         truth=articulation([scene.truth for scene in scenes], device),
         radius_B=torch.tensor([scene.truth.radius for scene in scenes], device=device),
-        rays=_rays(stage, scenes, images, config) if config.rays else None,
+        rays=_rays(stage, scenes, inputs, images, config) if config.rays else None,
         asset_ids=tuple(scene.asset_id for scene in scenes),
         categories=tuple(scene.category for scene in scenes),
     )
 
 
 def target_cameras(
-    stage: Stage, scenes: Sequence[Scene], images: Images, config: DataConfig
+    stage: Stage, scenes: Sequence[Scene], inputs: Cameras, images: Images, config: DataConfig
 ) -> Cameras:
     """The T x W cameras whose rays supervise, at `target_px`, cropped as the inputs are."""
     device = images.rgb_BTV3HW.device
@@ -128,13 +128,17 @@ def target_cameras(
     matrices[..., 2, 2] = 1.0
     return Cameras(
         intrinsics_BN33=matrices.flatten(1, 2),
-        camera_from_world_BN44=images.camera_from_world_BTV44[item, state, chosen].flatten(1, 2),
+        camera_from_world_BN44=inputs.camera_from_world_BN44.gather(
+            1, (state * config.views + chosen).flatten(1)[..., None, None].expand(-1, -1, 4, 4)
+        ),
         state_BN=state.expand_as(chosen).flatten(1, 2),
     )
 
 
-def _rays(stage: Stage, scenes: Sequence[Scene], images: Images, config: DataConfig) -> Rays:
-    cameras = target_cameras(stage, scenes, images, config)
+def _rays(
+    stage: Stage, scenes: Sequence[Scene], inputs: Cameras, images: Images, config: DataConfig
+) -> Rays:
+    cameras = target_cameras(stage, scenes, inputs, images, config)
     items, count = cameras.state_BN.shape
     parts = max(int(scene.truth.arrays["valid_P"].sum()) for scene in scenes)
     code = cast(stage, cameras, size=config.target_px, parts=parts).code_CHW

@@ -7,7 +7,9 @@ import numpy as np
 
 from artgen.core.camera import framed, orbit_direction
 from artgen.core.mesh import Floats
+from artgen.core.rotation import axis_angle_matrix
 from artgen.core.stream import Stream
+from artgen.core.transform import rigid
 from model.data.config import DataConfig
 
 
@@ -78,3 +80,18 @@ def _state_views(
         intrinsics=np.stack([camera.intrinsics for camera in cameras])[None],
         camera_from_world=np.stack([camera.camera_from_world for camera in cameras])[None],
     )
+
+
+def stated_views(views: Views, config: DataConfig, stream: Stream) -> Views:
+    """The cameras as the network is told them: turned and shifted a little where asked for."""
+    if config.pose_noise_deg == config.pose_noise == 0.0:
+        return views
+    poses = views.camera_from_world.copy()
+    rng = stream.generator()
+    for place in np.ndindex(*poses.shape[:2]):
+        turn = math.radians(config.pose_noise_deg) * rng.normal(size=3)
+        shift = config.pose_noise * rng.normal(size=3)
+        angle = float(np.linalg.norm(turn))
+        axis = turn / angle if angle > 0.0 else np.array([0.0, 0.0, 1.0])
+        poses[place] = rigid(axis_angle_matrix(axis.tolist(), angle), shift) @ poses[place]
+    return Views(intrinsics=views.intrinsics, camera_from_world=poses)

@@ -14,6 +14,7 @@ from model.data.config import DataConfig
         ({"targets_from": "inputs", "views": 1, "target_views": 2}, "2 target views of 1 inputs"),
         ({"fov_deg": (0.0, 40.0)}, "fov_deg 0.0..40.0"),
         ({"elevation_deg": (50.0, 40.0)}, "must ascend"),
+        ({"pose_noise": -0.1}, "pose_noise -0.1 must be at least 0"),
         ({"fill": 0.0}, r"fill 0.0 in \(0, 1\]"),
         ({"mask_share": 1.5}, r"mask_share 1.5 must lie in \[0, 1\]"),
     ],

@@ -112,6 +112,17 @@ def test_input_rays_go_through_the_cropped_images():
     assert inside > 40
 
 
+@pytest.mark.parametrize("targets_from", ["inputs", "others"])
+def test_noise_of_poses_changes_nothing_but_what_the_network_is_told(targets_from):
+    config = dataclasses.replace(CONFIG, targets_from=targets_from)
+    _, clean, rays = _made("cabinet", config)
+    _, noisy, noisy_rays = _made("cabinet", dataclasses.replace(config, pose_noise_deg=5.0))
+    assert_equal(noisy_rays, rays)
+    assert torch.equal(noisy.images.rgb_BTV3HW, clean.images.rgb_BTV3HW)
+    turned = noisy.images.camera_from_world_BTV44 - clean.images.camera_from_world_BTV44
+    assert turned.abs().max() > 0.02
+
+
 def test_company_changes_no_image():
     """On one machine an item is the same alone and among others, to rounding of sums."""
     scenes = [

@@ -4,7 +4,7 @@ import numpy as np
 
 from artgen.core.stream import Stream
 from model.data.config import DataConfig
-from model.data.views import Views, drawn_views
+from model.data.views import Views, drawn_views, stated_views
 
 CONFIG = DataConfig(fov_deg=(20.0, 50.0), elevation_deg=(-10.0, 60.0), fill=0.9)
 CLOUD = np.random.default_rng(0).uniform(-0.6, 0.6, (2, 50, 3))
@@ -59,3 +59,19 @@ def test_all_states_share_their_cameras_if_asked():
     config = dataclasses.replace(CONFIG, same_cameras=False)
     own = drawn_views(CLOUD, config, Stream(0), count=2, size=64)
     assert not np.array_equal(own.camera_from_world[0], own.camera_from_world[1])
+
+
+def test_noise_turns_and_shifts_what_the_network_is_told():
+    views = drawn_views(CLOUD, CONFIG, Stream(0), count=200, size=64)
+    assert stated_views(views, CONFIG, Stream(1)) is views
+    config = dataclasses.replace(CONFIG, pose_noise_deg=2.0, pose_noise=0.1)
+    told = stated_views(views, config, Stream(1))
+    true_pose, pose = views.camera_from_world, told.camera_from_world
+    change = pose @ np.linalg.inv(true_pose)
+    skew = change[..., :3, :3] - np.swapaxes(change[..., :3, :3], -1, -2)
+    turns = np.degrees(np.stack([skew[..., 2, 1], skew[..., 0, 2], skew[..., 1, 0]]) / 2)
+    # 1,200 draws: the deviation of a deviation is 2 %.
+    assert abs(turns.std() / 2.0 - 1.0) < 0.08
+    assert abs(change[..., :3, 3].std() / 0.1 - 1.0) < 0.08
+    gram = pose[..., :3, :3] @ np.swapaxes(pose[..., :3, :3], -1, -2)
+    np.testing.assert_allclose(gram, np.broadcast_to(np.eye(3), gram.shape), atol=1e-12)
