@@ -30,6 +30,8 @@ NEAR = 0.01
 """Of the object's diagonal: points of child and parent nearer than this touch."""
 TOUCHES = 0.02
 """Share of a child's points by which one pose has to touch more than another."""
+SWEEPS = 2
+"""Times that each joint is decided."""
 POINTS = 600
 """Samples of a part's surface."""
 DIRECTIONS = 96
@@ -78,14 +80,17 @@ def found_rests(
     labels: Mapping[str, str],
     outlines: Mapping[str, Outline],
 ) -> dict[str, Rest]:
-    """Joint name to its closed pose; joints are decided from the base outward."""
+    """Joint name to its closed pose; joints are decided from the base outward, each with the others
+    where they were decided last: an open door hides what a drawer takes."""
     chain = [drawn_joint(joint) for joint in joints]
     boxes = _Boxes(base, chain, outlines)
     state = {joint.name: 0.0 if joint.start is None else joint.start for joint in joints}
     rests: dict[str, Rest] = {}
-    for joint in joints:
-        rests[joint.name] = rest = _rest(joint, ROLES[labels[joint.child]].closes, state, boxes)
-        state[joint.name] = rest.q
+    for _ in range(SWEEPS):
+        for joint in joints:
+            closes = ROLES[labels[joint.child]].closes
+            rests[joint.name] = rest = _rest(joint, closes, state, boxes)
+            state[joint.name] = rest.q
     return rests
 
 
@@ -155,6 +160,9 @@ def _rest(joint: ForeignJoint, closes: bool, state: Mapping[str, float], boxes: 
         nearer = min((joint.lower, joint.upper), key=abs)
         reason = "boxes and contact alike, and its pose as drawn is out of reach; the nearer end"
         return Rest(q=nearer, reason=reason, confidence="low")
+    if not closes:
+        reason = "boxes and contact alike, and it closes nothing; the start"
+        return Rest(q=start, reason=reason, confidence="medium")
     return Rest(q=start, reason="boxes and contact alike; the start", confidence="low")
 
 
