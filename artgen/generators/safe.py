@@ -38,9 +38,10 @@ def build(p: SafeParams, surfaces: Mapping[str, SurfaceSpec]) -> Draft:
     works, at = works_of(p, case), fittings_of(p, case, side)
     own = lock(p.lock, at.lock_plane, trim="trim", mark="mark", handle="handle", size=p.dial_size)
     signs, labels = door_signs(case, works, at, p.brand)
+    end = min(0.045, (case.high - case.low) / 2.0 - 0.031)  # Low doors: 60 mm each, 2 mm apart.
     pairs = [] if p.hinges == "hidden" else [
         barrel_pair(-case.opening_x - p.gap / 2.0, p.barrel, z, gap=p.gap)
-        for z in (case.low + 0.045, case.high - 0.045)
+        for z in (case.low + end, case.high - end)
     ]  # fmt: skip
     iron = [Body(solid=union(moved), surface="handle", density=STEEL) for _, moved in pairs]
     base = [
