@@ -99,9 +99,7 @@ def named(found: Sequence[Found], kind: Kind) -> list[tuple[str, Found]]:
     taken: set[str] = set()
     listed = []
     for entry in found:
-        name = (
-            f"{PREFIX[kind]}_{slug(entry.path.stem if entry.path.is_file() else entry.path.name)}"
-        )
+        name = f"{PREFIX[kind]}_{slug(_own_name(entry.path))}"
         number, own = 1, name
         while own in taken:
             number += 1

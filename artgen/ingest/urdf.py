@@ -29,6 +29,8 @@ MOVING: Mapping[str, JointType] = {
     "continuous": "continuous",
     "prismatic": "prismatic",
 }
+TURN_DECIMALS = 15
+"""So that a right angle, whose cosine is 2e-16 in float64, keeps axes on axes."""
 LISTS = ("xyz", "rpy", "scale", "size", "rgba")
 """Attributes whose numbers some files separate by commas."""
 
@@ -50,7 +52,7 @@ def read_urdf(path: Path, *, turn_deg: float) -> ForeignObject:
         raise IngestError(f"{path.name}: root element <{robot.tag}> instead of <robot>")
     commas = _without_commas(robot)
     tree = _Tree(robot, path)
-    turn = axis_angle_matrix((0.0, 0.0, 1.0), np.radians(turn_deg))
+    turn = np.round(axis_angle_matrix((0.0, 0.0, 1.0), np.radians(turn_deg)), TURN_DECIMALS)
     return ForeignObject(
         dataset="urdf",
         id=robot.get("name") or path.stem,
