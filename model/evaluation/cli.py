@@ -29,7 +29,7 @@ FormatName = Literal[
     "auto", "bundle", "urdf", "urdformer", "singapo", "paris", "dta", "artgs", "two_states"
 ]
 SCHEMA = "artgen-evaluation-run/1"
-BASELINES = ("mean", "pixels", "conv", "efflite0")
+BASELINES = ("mean", "pixels", "conv", "efflite0", "fit")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,8 +43,9 @@ class Evaluate:
     folder `images` beside an object are compared with the true ones of the same name.
 
     A network file, or a baseline's name (mean: the mean layout; pixels, conv, efflite0: the nearest
-    training object by images or by an encoder's features), is judged on held-out objects of a
-    library (artgen train-data) or of shards, at views and in a state that it was not shown.
+    training object by images or by an encoder's features; fit: a field and joints fitted to the
+    object's own images, as PARIS does) is judged on held-out objects of a library (artgen
+    train-data) or of shards; a network also at views and in a state that it was not shown.
 
     Writes evaluation.json, report.html and objects/, one record an object; the same command again
     scores only what changed. What each metric means: docs/evaluation.md.
@@ -108,6 +109,8 @@ class Evaluate:
     """Views a state that a baseline is shown; a network states its own."""
     pixels: int = 48
     """Side of the images that a baseline is shown."""
+    fit_steps: int = 600
+    """Updates of the baseline fit."""
 
 
 def evaluate(argv: Sequence[str]) -> int:
@@ -154,8 +157,13 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
             f"{command.predictions} is no folder, no network file and no baseline"
             f"{did_you_mean(command.predictions, BASELINES)}; baselines are {', '.join(BASELINES)}"
         )
-    if min(command.count, command.views) < 1 or min(command.resolution, command.samples) < 0:
-        raise UsageError("--count and --views are at least 1, --resolution and --samples 0")
+    if (
+        min(command.count, command.views, command.fit_steps) < 1
+        or min(command.resolution, command.samples) < 0
+    ):
+        raise UsageError(
+            "--count, --views and --fit-steps are at least 1, --resolution and --samples 0"
+        )
     asked = {
         "predictions": command.predictions,
         "truth": command.truth,
@@ -170,6 +178,7 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
         "samples": command.samples,
         "gated": command.gates,
         "lpips": command.lpips,
+        "fit_steps": command.fit_steps,
     }
     module = import_module("model.evaluation.network_run")
     with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):

@@ -28,13 +28,16 @@ from model.evaluation.pictures import strip
 from model.evaluation.predictions import layout_of
 from model.evaluation.predictors import (
     ArtPredictor,
+    FitPredictor,
     MeanPredictor,
     NeighborPredictor,
     Predictor,
     feature_of,
 )
 from model.evaluation.records import keep_record, kept_record, picture_path
+from model.evaluation.reshape import rebased
 from model.evaluation.score import Protocol, Record, failed, score
+from model.object_fit import FitConfig
 
 LEAST_PX = 16
 """Images that nobody looks at are made as small as this."""
@@ -45,7 +48,7 @@ class NetworkRun:
     """What is judged, on what.
 
     Attributes:
-        predictions: a network file, `mean`, `pixels`, or the name of an encoder.
+        predictions: a network file, `mean`, `fit`, `pixels`, or the name of an encoder.
         truth: a library file, or a folder of shards.
         train: the same for baselines to learn from.
         split: of the truth; None takes all. Baselines learn from `train`.
@@ -53,6 +56,7 @@ class NetworkRun:
         states, views, pixels: what baselines are shown; a network states its own.
         counts, resolution, samples, gated: as `ArtPredictor`.
         lpips: folder of its weights, or None.
+        fit_steps: updates of `fit`.
     """
 
     predictions: str
@@ -68,6 +72,7 @@ class NetworkRun:
     samples: int
     gated: bool
     lpips: Path | None = None
+    fit_steps: int = 600
 
 
 def run(asked: NetworkRun, protocol: Protocol, folder: Path) -> list[Record]:
@@ -95,8 +100,9 @@ def judged(predictor: Predictor, item: HeldOut, protocol: Protocol, folder: Path
         guess = predictor(item)
     except ArtgenError as error:
         return failed(item.layout, str(error))
-    write_bytes(picture_path(folder, item.name), strip(guess.layout, item.layout))
-    return score(guess.layout, item.layout, protocol, images=guess.images, gates=guess.gates)
+    true = item.layout if guess.rest is None else rebased(item.layout, guess.rest)
+    write_bytes(picture_path(folder, item.name), strip(guess.layout, true))
+    return score(guess.layout, true, protocol, images=guess.images, gates=guess.gates)
 
 
 def run_key(asked: NetworkRun, protocol: Protocol) -> str:
@@ -136,6 +142,9 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
             perceptual=None if asked.lpips is None else load_lpips(asked.lpips),
         )
         return own, shown_to(config)
+    if asked.predictions == "fit":
+        steps = dataclasses.replace(FitConfig(), steps=asked.fit_steps)
+        return FitPredictor(steps), baseline_data(asked.states, asked.views, asked.pixels)
     if asked.train is None:
         raise UsageError(
             f"{asked.predictions} learns from training objects: name a library or shards by --train"

@@ -13,6 +13,7 @@ import torch
 
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, TriMesh
+from artgen.core.stream import Stream
 from model.art import Art
 from model.batch import Articulation, Batch
 from model.config import Config
@@ -26,6 +27,7 @@ from model.evaluation.predictions import layout_of, with_observed_limits
 from model.evaluation.simulated import prediction_gates
 from model.extract import ColoredMesh, part_meshes
 from model.infer import predict
+from model.object_fit import FitConfig, fit_object
 from model.pictures import pictures
 from model.prediction import Prediction
 
@@ -34,11 +36,16 @@ Images = dict[str, list[ImageScores]]
 
 @dataclass(frozen=True, eq=False)
 class Guess:
-    """What was predicted of one object, in radii, how its images compare, and what MuJoCo says."""
+    """What was predicted of one object, in radii, how its images compare, and what MuJoCo says.
+
+    Attributes:
+        rest: the observed state that it takes for rest; None where it is closed, as the truth is.
+    """
 
     layout: Layout
     images: Images
     gates: Gates | None = None
+    rest: int | None = None
 
 
 class Predictor(Protocol):
@@ -163,6 +170,28 @@ class ArtPredictor:
                     )
                 )
         return found
+
+
+@dataclass(frozen=True, eq=False)
+class FitPredictor:
+    """A field and joints fitted to the object's own images, as PARIS does; it is told the number of
+    parts and their types, and takes the first state for rest."""
+
+    config: FitConfig
+
+    def __call__(self, item: HeldOut) -> Guess:
+        """Looks at the images that are shown."""
+        stream = Stream(0, "evaluation", "fit", item.name)
+        kinds = tuple(int(kind) for kind in item.layout.types)
+        with torch.enable_grad():
+            found = fit_object(
+                item.shown.images, len(item.layout), self.config, stream, types=kinds
+            )
+        meshes = part_meshes(found.field, found.articulation, resolution=self.config.tight_cells)
+        layout = layout_of(
+            found.layout, 0, name=item.name, category=item.category, meshes=surfaces(meshes)
+        )
+        return Guess(with_observed_limits(layout), {}, rest=0)
 
 
 def with_more_states(predicted: Articulation, true: Articulation) -> Articulation:

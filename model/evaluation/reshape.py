@@ -7,7 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from artgen.articulation.targets import PRISMATIC, REVOLUTE
+from artgen.core.errors import ModelError
 from artgen.core.mesh import Floats, TriMesh
+from artgen.core.transform import apply
+from model.evaluation.boxes import moved_bounds
 from model.evaluation.layout import Layout
 
 BY_PART = ("boxes", "types", "endless", "axes", "origins", "limits")
@@ -51,6 +54,38 @@ def turned(layout: Layout, rotation: Floats) -> Layout:
         axes=layout.axes @ rotation.T,
         origins=layout.origins @ rotation.T,
         meshes=tuple(_with_vertices(m, lambda v: v @ rotation.T) for m in layout.meshes),
+    )
+
+
+def rebased(layout: Layout, state: int) -> Layout:
+    """The same object with one of its observed states for rest, as those have it who are not told
+    what closed is. Boxes are those of the moved surfaces, or around the moved boxes.
+
+    Raises:
+        ModelError: the layout states no such state.
+    """
+    if layout.states is None or not -len(layout.states) <= state < len(layout.states):
+        raise ModelError(f"layout {layout.name} has no state {state} to take for rest")
+    q = layout.states[state]
+    poses = layout.poses(q)
+    above = np.stack([poses[p] if p >= 0 else np.eye(4) for p in layout.parents.tolist()])
+    turned_axes = np.einsum("pij,pj->pi", above[:, :3, :3], layout.axes)
+    origins = np.einsum("pij,pj->pi", above[:, :3, :3], layout.origins) + above[:, :3, 3]
+    meshes = tuple(
+        None if mesh is None else replace(mesh, vertices=apply(pose, mesh.vertices))
+        for mesh, pose in zip(layout.meshes, poses, strict=False)
+    )
+    boxes = [moved_bounds(box, pose) for box, pose in zip(layout.boxes, poses, strict=True)]
+    for part, mesh in enumerate(meshes):
+        boxes[part] = boxes[part] if mesh is None else mesh.bounds
+    return replace(
+        layout,
+        boxes=np.stack(boxes),
+        axes=turned_axes,
+        origins=np.where((layout.types == REVOLUTE)[:, None], origins, 0.0),
+        limits=np.where(layout.endless[:, None], layout.limits, layout.limits - q[:, None]),
+        states=layout.states - q,
+        meshes=meshes,
     )
 
 

@@ -10,7 +10,7 @@ from artgen.core.errors import ModelError
 from artgen.core.rotation import axis_angle_matrix
 from artgen.core.transform import apply
 from model.evaluation.layout import unit_axes
-from model.evaluation.reshape import placed, stretched, taken, turned, without
+from model.evaluation.reshape import placed, rebased, stretched, taken, turned, without
 from tests.unit.model.evaluation.layouts import cabinet
 
 
@@ -79,6 +79,24 @@ def test_what_hung_on_a_dropped_part_hangs_above_it() -> None:
     assert left.labels == ("base", "door")
     assert left.parents.tolist() == [-1, 0]
     assert taken(layout, [0, 2]).limits.tolist() == [[0.0, 0.0], [0.0, 1.5]]
+
+
+@pytest.mark.parametrize("parents", [(-1, 0, 0), (-1, 2, 0)])
+def test_another_rest_is_the_same_object(parents: tuple[int, ...]) -> None:
+    """What moves a point from rest to a state, moves it by way of the new rest."""
+    layout = cabinet(parents=np.array(parents), states=np.array([(0.0, 0.2, 0.7), (0.0, 0.4, 1.1)]))
+    assert layout.states is not None
+    other = rebased(layout, 0)
+    assert other.states is not None
+    point = np.array([0.2, 0.3, 0.4])
+    for part in range(3):
+        at_new_rest = apply(layout.poses(layout.states[0])[part], point)
+        by_way = apply(other.poses(other.states[1])[part], at_new_rest)
+        straight = apply(layout.poses(layout.states[1])[part], point)
+        assert np.allclose(by_way, straight, rtol=0.0, atol=4e-16 * 10)  # Ten roundings below 2.
+    assert other.limits[2].tolist() == pytest.approx([-0.7, 0.8], abs=1e-15)
+    with pytest.raises(ModelError, match="no state 2"):
+        rebased(layout, 2)
 
 
 @pytest.mark.parametrize(
