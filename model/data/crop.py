@@ -74,8 +74,10 @@ def _weights(length: int, start_K: Tensor, side_K: Tensor, size: int) -> Tensor:
     support = step.clamp(min=1.0)[:, None, None]
     targets = torch.arange(size, device=step.device, dtype=step.dtype) + 0.5
     center = (start_K[:, None] + targets * step[:, None])[:, :, None]
-    reach = int(torch.ceil(side_K.amax()).item()) + 2
-    sources = torch.arange(-reach, length + reach, device=step.device, dtype=step.dtype) + 0.5
+    low, high = (start_K - step - 1.0).amin(), (start_K + side_K + step + 1.0).amax()
+    first = int(torch.floor(low.clamp(max=0.0)).item())
+    last = int(torch.ceil(high.clamp(min=length)).item())
+    sources = torch.arange(first, last, device=step.device, dtype=step.dtype) + 0.5
     weights = (1.0 - (sources - center).abs() / support).clamp(min=0.0)
     weights = weights / weights.sum(dim=2, keepdim=True)
-    return weights[:, :, reach : reach + length]
+    return weights[:, :, -first : length - first]
