@@ -1,0 +1,1 @@
+"""What `artgen assemble` makes: how many distinct objects, how evenly from donors, how textured."""
