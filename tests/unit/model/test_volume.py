@@ -115,7 +115,9 @@ def check_composite(seen: RayColors, first: np.ndarray, hit: np.ndarray, miss: n
     nearest = np.where(hit, first, np.inf).argmin(axis=0)
     certain = (hit | miss).all(axis=0) & np.isfinite(ordered[0])
     # Behind by 12 betas at a slant of 0.3, and a cell: nothing of the second is before the first.
-    certain[certain] = (ordered[1] - ordered[0])[certain] > FAR_BETAS / SHARP / 0.3 + 1.3 / SAMPLES
+    certain[certain] = (
+        np.diff(ordered[:2, certain], axis=0)[0] > FAR_BETAS / SHARP / 0.3 + 1.3 / SAMPLES
+    )
     nothing = miss.all(axis=0)
     assert certain.sum() > 20
     assert seen.alpha_BR[0].numpy()[certain].min() > 1.0 - np.exp(1.0 - 2.0 * BETAS)
