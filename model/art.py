@@ -6,6 +6,7 @@ state's vector, Q numbers of parts.
 
 import dataclasses
 import math
+from collections.abc import Iterator
 
 import torch
 from torch import Tensor, nn
@@ -15,6 +16,7 @@ from model.attention import Attention, Mlp
 from model.batch import FIXED, Articulation, Images
 from model.blocks import TrunkBlocks
 from model.config import ModelConfig
+from model.encoders.protocol import Pretrained
 from model.field import FieldHead
 from model.heads import (
     ArticulationHead,
@@ -31,8 +33,8 @@ from model.prediction import TYPE_OF_LOGIT, Prediction, with_types
 from model.tokens import ImageTokenizer, SlotTokens
 from model.tree import parents
 
-SPREAD = 0.02
-"""Deviation of initial weights and tokens."""
+FIRST_ANSWER = 0.1
+"""Deviation of what an untrained head says, before the mappings."""
 
 
 class Art(nn.Module):
@@ -142,22 +144,36 @@ def hung_on(parent_logits_BPP: Tensor | None, valid_BP: Tensor) -> Tensor:
 
 
 def initialize(art: Art) -> None:
-    """Initial weights: small normal matrices, zero biases, and residual branches that begin smaller
-    the deeper the trunk; the field's networks have their own."""
-    own = [module for name, module in art.named_children() if name != "field_head"]
-    for module in (inner for part in own for inner in part.modules()):
+    """Initial weights: matrices that keep the size of what they are given, zero biases, residual
+    branches that begin smaller the deeper the trunk, answers that begin near their middle, and each
+    kind of content with an equal share of a token. The field's networks have their own."""
+    for module in _own(art):
         if isinstance(module, nn.Linear):
-            nn.init.trunc_normal_(module.weight, std=SPREAD)
-            if module.bias is not None:
-                nn.init.zeros_(module.bias)
+            drawn(module, 1.0)
         elif isinstance(module, nn.Embedding):
             nn.init.normal_(module.weight)
     for module in art.trunk.modules():
         if isinstance(module, Attention | Mlp):
-            nn.init.trunc_normal_(
-                module.out.weight, std=SPREAD / math.sqrt(2.0 * art.config.trunk.blocks)
-            )
+            drawn(module.out, 1.0 / math.sqrt(2.0 * art.config.trunk.blocks))
+    for answer in art.articulation.answers():
+        drawn(answer, FIRST_ANSWER)
+    art.images.balance()
     for tokens in (art.slots.token_PKD, art.slots.number_PD):
         nn.init.normal_(tokens)
     if art.count is not None:
         nn.init.normal_(art.count.query_QD)
+
+
+def _own(module: nn.Module) -> Iterator[nn.Module]:
+    """All inner modules but those that come with weights of their own."""
+    for inner in module.children():
+        if not isinstance(inner, Pretrained | FieldHead):
+            yield inner
+            yield from _own(inner)
+
+
+def drawn(linear: nn.Linear, gain: float) -> None:
+    """Weights by which inputs of size 1 become outputs of size `gain`; biases zero."""
+    nn.init.trunc_normal_(linear.weight, std=gain / math.sqrt(linear.in_features))
+    if linear.bias is not None:
+        nn.init.zeros_(linear.bias)

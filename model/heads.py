@@ -75,6 +75,11 @@ class ArticulationHead(nn.Module):
             self.norm_state = norm(width)
             self.motion = nn.Sequential(nn.Linear(2 * width, width), nn.GELU(), nn.Linear(width, 1))
 
+    def answers(self) -> list[nn.Linear]:
+        """The layers whose outputs are numbers of the articulation."""
+        ends = [net[-1] for net in (self.vector, self.motion) if net is not None]
+        return [end for end in ends if isinstance(end, nn.Linear)]
+
     def forward(self, slot_BPD: Tensor, state_BPTD: Tensor | None, states: int) -> RawArticulation:
         """The numbers of every slot for the first T states."""
         slot_BPD = self.norm(slot_BPD)

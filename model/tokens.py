@@ -4,6 +4,8 @@ B objects, T states, V views, F = T * V images, N patches of an image, P part sl
 slot, D channels, S pixels of an image's side, digits a length.
 """
 
+import math
+
 import torch
 from torch import Tensor, nn
 from torch.nn import functional
@@ -19,6 +21,11 @@ PLANES = 6
 """Planes of a hexa-plane: xy+ xy- yz+ yz- xz+ xz-."""
 
 
+SIZES = (0.6, 0.5, 1.0, 0.6)
+"""Usual root mean squares of colors in [-1, 1], of rays (unit directions, moments within the
+sphere), of state vectors and of features."""
+
+
 class ImageTokenizer(nn.Module):
     """Patches, rays, state and semantics of an image, concatenated and projected once.
 
@@ -31,10 +38,22 @@ class ImageTokenizer(nn.Module):
         self.encoder: Encoder | None = make_encoder(config.encoder, frozen=config.frozen)
         self.state = nn.Embedding(config.states, config.state_dim)
         pixels = config.patch_px**2
-        self.features = pixels * (4 if config.alpha else 3)
-        self.features += 6 * (pixels if config.rays == "pixel" else 1)
-        self.features += config.state_dim + (0 if self.encoder is None else self.encoder.dim)
-        self.project = nn.Linear(self.features, width)
+        self.widths = [pixels * (4 if config.alpha else 3)]
+        self.widths += [6 * (pixels if config.rays == "pixel" else 1), config.state_dim]
+        self.widths += [] if self.encoder is None else [self.encoder.dim]
+        self.project = nn.Linear(sum(self.widths), width)
+
+    def balance(self) -> None:
+        """Draw the projection so that patch, ray, state and semantics begin with equal shares.
+
+        Drawn alike, the 6 numbers of a ray would be drowned by the 192 of a patch's colors, and the
+        network would learn late where it looks.
+        """
+        columns = torch.split(self.project.weight, self.widths, dim=1)
+        for block, size in zip(columns, SIZES, strict=False):
+            share = 1.0 / (size * math.sqrt(block.shape[1] * len(columns)))
+            nn.init.trunc_normal_(block, std=share)
+        nn.init.zeros_(self.project.bias)
 
     def forward(self, images: Images) -> Tensor:
         """(B, F, N, D), states slowest, patches row by row.

@@ -218,6 +218,9 @@ def test_a_network_names_the_weights_that_its_encoder_came_with(tmp_path: Path) 
     lent = dataclasses.replace(own.images, encoder=f"dinov2:{tmp_path}")
     art = made(dataclasses.replace(TINY, images=lent))
     assert art.encoder_identity == f"dinov2 {file_hash(path)}"
+    # The bug this prevents: initial weights were drawn over those of the file.
+    for name, weights in vit.state_dict().items():
+        assert torch.equal(art.images.encoder.state_dict()[f"network.{name}"], weights.double())  # type: ignore[union-attr]
     said = art(drawn_images(15), held((3, 4)))
     said.articulation.center_BP3.sum().backward()
     assert all(weights.grad is None for weights in art.images.encoder.parameters())  # type: ignore[union-attr]
@@ -280,6 +283,29 @@ def summed(said: Prediction) -> Tensor:
         floats.append(said.count_logits_BQ)
     kept = (torch.where(tensor > -1e8, tensor, 0.0) for tensor in floats)
     return torch.stack([tensor.float().sum() for tensor in kept]).sum()
+
+
+def test_kinds_of_content_begin_with_equal_shares_of_a_token() -> None:
+    """Six numbers of a ray count as much as the 192 of a patch's colors; within a factor of 2,
+    since shares are set for usual images and these are noise."""
+    art = made(MODELS["nano"], dtype=torch.float32).images
+    torch.manual_seed(1)
+    rays = torch.nn.functional.normalize(torch.randn(512, 3), dim=-1)
+    moments = 0.6 * torch.linalg.cross(rays, torch.randn(512, 3))
+    contents = (
+        2.0 * torch.rand(512, art.widths[0]) - 1.0,
+        torch.cat([rays, moments], dim=-1),
+        torch.randn(512, art.widths[2]),
+        0.6 * torch.randn(512, art.widths[3]),
+    )
+    shares = [
+        float((content @ weights.T).square().mean().sqrt().detach())
+        for content, weights in zip(
+            contents, art.project.weight.split(art.widths, dim=1), strict=True
+        )
+    ]
+    assert max(shares) < 2.0 * min(shares)
+    assert sum(share**2 for share in shares) == pytest.approx(1.0, rel=0.5)
 
 
 def matrix_weights(config: ModelConfig) -> int:
