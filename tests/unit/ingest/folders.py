@@ -118,8 +118,8 @@ def cabinet(*, drawer: Motion | None = None, door: Motion | None = None) -> Fold
         "original-4": ((-0.5, 0.7, -0.4), (0.5, 0.8, 0.3)),
         "original-5": ((-0.5, -0.7, -0.4), (0.5, 0.7, -0.35)),
         "original-6": ((-0.48, 0.22, -0.3), (0.48, 0.68, 0.35)),
-        "original-7": ((-0.49, -0.68, 0.3), (0.49, 0.18, 0.35)),
-        "original-8": ((0.4, -0.3, 0.35), (0.45, 0.0, 0.4)),
+        "original-7": ((-0.5, -0.68, 0.301), (0.56, 0.18, 0.35)),
+        "original-8": ((0.46, -0.3, 0.35), (0.5, 0.0, 0.4)),
     }
     nodes = [
         Node(id=0, parent=2, kind="slider", name="drawer", leaves=leaf(6, "drawer_front"),
