@@ -1,0 +1,46 @@
+"""Their words to our roles, and forces that move what they have to."""
+
+import pytest
+
+from artgen.articulation.roles import ROLES
+from artgen.ingest.roles import FLIPPED, WORDS, dynamics, role_label
+
+
+@pytest.mark.parametrize(
+    ("word", "joint", "role"),
+    [
+        ("rotation_door", "revolute", "door"),
+        ("translation_tray", "prismatic", "tray"),
+        ("drawer", "prismatic", "drawer"),
+        ("key", "prismatic", "button"),
+        ("cap", "prismatic", "lid"),
+        ("left_door_link", "revolute", "door"),
+        ("drawer", "revolute", "door"),
+        ("furniture_body", None, "base"),
+        ("foot_pad", "revolute", "part"),
+        ("base_link", "revolute", "part"),
+        ("", "prismatic", "part"),
+    ],
+)
+def test_words_become_roles(word: str, joint: str | None, role: str) -> None:
+    assert role_label(word, joint) == role
+
+
+def test_every_word_stands_for_a_role_that_is_there() -> None:
+    assert {*WORDS.values(), *FLIPPED.values()} <= set(ROLES)
+
+
+@pytest.mark.parametrize("label", sorted(set(ROLES) - {"base"}))
+@pytest.mark.parametrize("joint", ["revolute", "prismatic"])
+@pytest.mark.parametrize("load", [0.0, 0.01, 5.0, 500.0])
+def test_effort_overcomes_friction_and_load(label: str, joint: str, load: float) -> None:
+    found = dynamics(label, joint, load=load)
+    assert found.friction > 0.0
+    assert found.effort >= 2.0 * (found.friction + load)
+
+
+@pytest.mark.parametrize("label", sorted(set(ROLES) - {"base", "part"}))
+def test_friction_lies_in_the_span_of_the_role(label: str) -> None:
+    role = ROLES[label]
+    for joint, (low, high) in (("revolute", role.turning), ("prismatic", role.sliding)):
+        assert low <= dynamics(label, joint, load=3.0).friction <= high
