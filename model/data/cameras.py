@@ -37,9 +37,8 @@ class Cameras(TensorBlock):
         matrix = self.intrinsics_BN33[item, camera]
         x = (pixel % width + 0.5 - matrix[..., 0, 2]) / matrix[..., 0, 0]
         y = (pixel // width + 0.5 - matrix[..., 1, 2]) / matrix[..., 1, 1]
-        local = torch.stack([x, y, torch.ones_like(x)], dim=-1)
-        turn = self.camera_from_world_BN44[item, camera, :3, :3]
-        return torch.einsum("...ij,...i->...j", turn, local)
+        right, down, forward = self.camera_from_world_BN44[item, camera, :3, :3].unbind(dim=-2)
+        return x[..., None] * right + y[..., None] * down + forward
 
 
 def state_cameras(views: Sequence[Views], device: torch.device) -> Cameras:

@@ -110,13 +110,17 @@ def shaded(
     """
     color, (roughness, metallic, emission) = look_N6[:, :3], look_N6[:, 3:, None].unbind(dim=1)
     up = 0.5 + 0.5 * normal_N3[:, 2:]
-    around = up * lights.sky_B3[item_N] + (1.0 - up) * lights.ground_B3[item_N]
+    sky, ground, toward_NL3, power_NL3 = (
+        rows if len(rows) == 1 else rows[item_N]  # One item's rows serve all points as they are.
+        for rows in (lights.sky_B3, lights.ground_B3, lights.toward_BL3, lights.power_BL3)
+    )
+    around = up * sky + (1.0 - up) * ground
     sharpness = 2.0 / roughness.clamp(min=0.15) ** 2
     gloss = torch.lerp(torch.full_like(color, 0.04), color, metallic)
     diffuse = around
     shine = around
     for k in range(LIGHTS):
-        toward, power = lights.toward_BL3[item_N, k], lights.power_BL3[item_N, k]
+        toward, power = toward_NL3[:, k], power_NL3[:, k]
         facing = (normal_N3 * toward).sum(dim=1, keepdim=True).clamp(min=0.0)
         halfway = torch.nn.functional.normalize(toward - sight_N3, dim=1)
         lobe = (normal_N3 * halfway).sum(dim=1, keepdim=True).clamp(min=0.0) ** sharpness
