@@ -23,7 +23,7 @@ SQUARE = 3.0
 """Power of the cosine between view and normal by which photographs count."""
 FLATTEST = 0.15
 """Cosine below which a photograph says nothing."""
-DOUBT = 0.05
+DOUBT = 1e-3
 """Weight of the field's color beside the photographs'."""
 LIFT = 2e-3
 """Share of the distance to the camera by which a point may lie behind what is seen first."""
