@@ -61,7 +61,7 @@ def _mean(layouts: Sequence[Layout]) -> Layout:
     that have that type."""
     first = layouts[0]
     kinds = np.stack([layout.types for layout in layouts])
-    types = _most_frequent(kinds)
+    types = _most_frequent(kinds.astype(np.int64)).astype(np.int8)
     same = (kinds == types)[..., None]  # Every column has one at least.
     weight = same.sum(axis=0)
 
@@ -93,17 +93,17 @@ def _mean_states(layouts: Sequence[Layout], same: NDArray[np.bool_]) -> Floats |
     return np.asarray((np.stack(known) * same[:, None]).sum(axis=0) / same.sum(axis=0))
 
 
-def _most_frequent(rows: NDArray[np.int8]) -> NDArray[np.int8]:
+def _most_frequent(rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """(P,) the most frequent value of each column of (N, P); the least of equals."""
-    return np.array([np.bincount(column + 1).argmax() - 1 for column in rows.T], np.int8)
+    return np.array([np.bincount(column + 1).argmax() - 1 for column in rows.T], np.int64)
 
 
-def _tree(parents: NDArray[np.int8]) -> NDArray[np.int8]:
+def _tree(parents: NDArray[np.int64]) -> NDArray[np.int64]:
     """Parents that are later parts hang on the base: votes of columns need not make a tree."""
     own = np.arange(len(parents))
     fixed = np.where(parents < own, parents, 0)
     fixed[0] = -1
-    return fixed.astype(np.int8)
+    return fixed.astype(np.int64)
 
 
 @dataclass(frozen=True, eq=False)

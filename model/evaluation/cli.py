@@ -98,7 +98,9 @@ class Evaluate:
     split: Literal["train", "val", "test", "all"] = "test"
     """Which objects of a library or of shards networks and baselines are judged on."""
     count: int = 100
-    """At most so many held-out objects, and so many training objects of a baseline."""
+    """At most so many held-out objects."""
+    train_count: int = 1000
+    """At most so many training objects of a baseline."""
     count_parts: bool = False
     """Let the network count the parts; else it is told how many, as the paper's is."""
     resolution: int = 48
@@ -157,12 +159,11 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
             f"{command.predictions} is no folder, no network file and no baseline"
             f"{did_you_mean(command.predictions, BASELINES)}; baselines are {', '.join(BASELINES)}"
         )
-    if (
-        min(command.count, command.views, command.fit_steps) < 1
-        or min(command.resolution, command.samples) < 0
-    ):
+    counts = (command.count, command.train_count, command.views, command.fit_steps)
+    if min(counts) < 1 or min(command.resolution, command.samples) < 0:
         raise UsageError(
-            "--count, --views and --fit-steps are at least 1, --resolution and --samples 0"
+            f"--count, --train-count, --views and --fit-steps are {counts}, each at least 1; "
+            "--resolution and --samples are at least 0"
         )
     asked = {
         "predictions": command.predictions,
@@ -179,6 +180,7 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
         "gated": command.gates,
         "lpips": command.lpips,
         "fit_steps": command.fit_steps,
+        "train_count": command.train_count,
     }
     module = import_module("model.evaluation.network_run")
     with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):

@@ -48,7 +48,7 @@ class Layout:
     axes: Floats
     origins: Floats
     limits: Floats
-    parents: NDArray[np.int8]
+    parents: NDArray[np.int64]
     endless: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, bool))
     states: Floats | None = None
     meshes: tuple[TriMesh | None, ...] = ()
@@ -58,8 +58,8 @@ class Layout:
         shapes = {"boxes": (count, 2, 3), "axes": (count, 3), "origins": (count, 3)}
         for key, shape in {**shapes, "limits": (count, 2)}.items():
             put(self, key, self._checked(key, np.asarray(getattr(self, key), float), shape))
-        for key in ("types", "parents"):
-            put(self, key, self._checked(key, np.asarray(getattr(self, key), np.int8), (count,)))
+        for key, kind in (("types", np.int8), ("parents", np.int64)):
+            put(self, key, self._checked(key, np.asarray(getattr(self, key), kind), (count,)))
         endless = np.asarray(self.endless, bool) if len(self.endless) else np.zeros(count, bool)
         put(self, "endless", self._checked("endless", endless, (count,)))
         if self.states is not None:

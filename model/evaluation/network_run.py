@@ -52,11 +52,12 @@ class NetworkRun:
         truth: a library file, or a folder of shards.
         train: the same for baselines to learn from.
         split: of the truth; None takes all. Baselines learn from `train`.
-        count: objects at most, of the truth and of the training objects each.
+        count: objects at most.
         states, views, pixels: what baselines are shown; a network states its own.
         counts, resolution, samples, gated: as `ArtPredictor`.
         lpips: folder of its weights, or None.
         fit_steps: updates of `fit`.
+        train_count: training objects of a baseline at most.
     """
 
     predictions: str
@@ -73,6 +74,7 @@ class NetworkRun:
     gated: bool
     lpips: Path | None = None
     fit_steps: int = 600
+    train_count: int = 1000
 
 
 def run(asked: NetworkRun, protocol: Protocol, folder: Path) -> list[Record]:
@@ -153,13 +155,13 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
     data = baseline_data(asked.states, *((1, LEAST_PX) if blind else (asked.views, asked.pixels)))
     source = opened(asked.train, "train", data.slots)
     if blind:
-        items = training_items(source, data, asked.count)
+        items = training_items(source, data, asked.train_count)
         return MeanPredictor(mean_layouts([layout for layout, _ in items])), data
     encoder = (
         None if asked.predictions == "pixels" else make_encoder(asked.predictions, frozen=True)
     )
     pairs = [(layout, feature_of(batch, encoder)) for layout, batch in
-             training_items(source, data, asked.count)]  # fmt: skip
+             training_items(source, data, asked.train_count)]  # fmt: skip
     features = torch.tensor([feature.tolist() for _, feature in pairs]).double().numpy()
     neighbor = NearestNeighbor(features, [layout for layout, _ in pairs])
     return NeighborPredictor(neighbor, encoder), data

@@ -78,7 +78,7 @@ def with_observed_limits(layout: Layout) -> Layout:
     return replace(layout, limits=np.stack([lower, upper], axis=1))
 
 
-def _tree(parents: list[int]) -> NDArray[np.int8]:
+def _tree(parents: list[int]) -> NDArray[np.int64]:
     """Parents as a tree: what is its own ancestor hangs on the base instead."""
     found = [-1, *parents[1:]]
     for part in range(1, len(found)):
@@ -88,7 +88,7 @@ def _tree(parents: list[int]) -> NDArray[np.int8]:
             above = found[above]
         if above > 0:
             found[part] = 0
-    return np.array(found, np.int8)
+    return np.array(found, np.int64)
 
 
 def _array(tensor: Tensor) -> NDArray[np.float64]:

@@ -105,7 +105,9 @@ def taken(layout: Layout, order: Sequence[int]) -> Layout:
     return replace(
         layout,
         labels=tuple(layout.labels[k] for k in rows),
-        parents=np.array([_kept_parent(layout.parents.tolist(), k, places) for k in rows], np.int8),
+        parents=np.array(
+            [_kept_parent(layout.parents.tolist(), k, places) for k in rows], np.int64
+        ),
         meshes=tuple(layout.meshes[k] for k in rows) if layout.meshes else (),
         states=None if layout.states is None else layout.states[:, rows],
         **{key: getattr(layout, key)[rows] for key in BY_PART},

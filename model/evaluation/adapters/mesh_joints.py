@@ -153,7 +153,7 @@ def _layout(name: str, parts: Sequence[Path], claims: Sequence[Claim]) -> Layout
         axes=unit_axes(axes, types) * signs[:, None],
         origins=np.where((types == REVOLUTE)[:, None], origins, 0.0),
         limits=np.stack([np.zeros(len(types)), travels], axis=1),
-        parents=np.array([-1, *(0 for _ in claims)], np.int8),
+        parents=np.array([-1, *(0 for _ in claims)], np.int64),
         states=np.stack([np.zeros(len(types)), travels]),
         meshes=meshes,
     )

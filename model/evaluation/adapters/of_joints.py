@@ -28,7 +28,7 @@ def layout_of_joints(
     """
     index = {part: k for k, (part, _) in enumerate(parts)}
     count = len(parts)
-    types, parents = np.full(count, FIXED, np.int8), np.full(count, -1, np.int8)
+    types, parents = np.full(count, FIXED, np.int8), np.full(count, -1, np.int64)
     axes, origins, limits = np.zeros((count, 3)), np.zeros((count, 3)), np.zeros((count, 2))
     endless = np.zeros(count, bool)
     for joint in joints:

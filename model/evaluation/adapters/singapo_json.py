@@ -68,7 +68,7 @@ def _layout(file: Path, stated: dict[str, Any], nodes: list[dict[str, Any]]) -> 
         axes=unit_axes(axes, types) * np.where(ends < 0.0, -1.0, 1.0)[:, None],
         origins=np.where((types == REVOLUTE)[:, None], np.array(origins, float), 0.0),
         limits=np.stack([np.zeros(len(ends)), np.abs(ends)], axis=1),
-        parents=np.array([places.get(node["parent"], -1) for node in ordered], np.int8),
+        parents=np.array([places.get(node["parent"], -1) for node in ordered], np.int64),
         meshes=tuple(_mesh(file.parent, node.get("plys", ())) for node in ordered),
     )
 
