@@ -73,7 +73,7 @@ class BoxMap:
 
     def _knots(self, ends: Floats, axis: int) -> Floats:
         low, high = self.borders[:, axis]
-        inside = [ends[0] + low] * (low > 0.0) + [ends[1] - high] * (high > 0.0)
+        inside = [ends[0] + low] * bool(low > 0.0) + [ends[1] - high] * bool(high > 0.0)
         return np.array([ends[0], *inside, ends[1]])
 
 

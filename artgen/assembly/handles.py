@@ -10,6 +10,7 @@ import numpy as np
 from artgen.assembly.fit import moved_piece
 from artgen.assembly.piece import Piece
 from artgen.assembly.source import Member, Side
+from artgen.assembly.uv_fix import areas
 from artgen.core.mesh import Floats, TriMesh
 
 Lie = Literal["x", "z", "round"]
@@ -28,8 +29,8 @@ ON_FACE = 0.0035
 FREE = 0.045
 """m; from the free side of a front to the middle of a handle, where nothing else tells."""
 EVEN = 0.06
-"""A handle may be turned by 90 degrees where it is symmetric: its middle within this share of its
-size from the middle of its box."""
+"""A handle may be turned by 90 degrees where it is symmetric: the middle of its surface lies within
+this share of its width and height from the middle of its box."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,10 +52,10 @@ def lie_of(box: Floats) -> Lie:
 
 def turns_over(handle: Piece) -> bool:
     """Whether a handle looks the same turned by 90 degrees: a cup does not, a bar does."""
-    box = handle.bounds
-    size = np.diff(box, axis=0)[0].max()
-    middle = handle.mesh.vertices.mean(axis=0) - box.mean(axis=0)
-    return bool(np.abs(middle[[0, 2]]).max() <= EVEN * size)
+    box, triangles = handle.bounds, handle.mesh.triangles
+    middle = np.average(triangles.mean(axis=1), axis=0, weights=areas(triangles))
+    off = np.abs(middle - box.mean(axis=0)) / np.diff(box, axis=0)[0]
+    return bool(off[[0, 2]].max() <= EVEN)
 
 
 def place_of(slot: Member, donor: Member, front: Floats) -> Place:

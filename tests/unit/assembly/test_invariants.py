@@ -1,0 +1,221 @@
+"""The invariants of one object hold of what is assembled, and each catches what it is for.
+
+Numbers are those of docs/assembly.md. 8 and 12 to 14 are about files and sets: see test_run,
+test_round_trip and the study's tests.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from artgen.articulation.types import Limit
+from artgen.assembly import invariants
+from artgen.assembly.invariants import broken
+from artgen.assembly.licence import KNOWN
+from artgen.assembly_study.rows import left_as_it_was
+from artgen.dataset.split import split_of
+from tests.unit.assembly.mutations import (
+    has,
+    moved_by,
+    part_with,
+    scaled,
+    with_joint,
+    with_layer,
+    with_new,
+    with_piece,
+)
+
+PARTNET = KNOWN["LicenseRef-PartNet-Mobility"]
+
+
+def numbers(found):
+    return {fault.number for fault in found}
+
+
+def test_all_hold_of_what_is_assembled(cases):
+    assert len(cases) >= 20
+    assert [fault for case in cases for fault in broken(case)] == []
+
+
+def test_1_another_kind_of_joint_is_another_tree(case_with):
+    case = case_with(has("out"))
+    name = part_with(case, "out").name
+    swapped = with_joint(case, name, lambda j: replace(j, type="revolute", origin=(0.0, 0.0, 0.0)))
+    assert numbers(invariants.tree(swapped)) == {1}
+
+
+def test_1_another_label_is_another_tree(cases):
+    case = cases[0]
+    name = case.template.members[0].name
+    parts = tuple((n, "lid" if n == name else label, p) for n, label, p in case.new.parts)
+    assert numbers(invariants.tree(with_new(case, parts=parts))) == {1}
+
+
+def test_2_and_6_a_donor_scaled_by_a_tenth_too_much(case_with):
+    """Two fronts beside each other lie 3 mm apart: one a tenth larger meets the other."""
+    case = case_with(lambda c: has("out")(c) and len(c.template.members) >= 4)
+    name = part_with(case, "out").name
+    large = with_layer(case, name, "body", lambda piece: scaled(piece, 1.1))
+    assert numbers(invariants.boxes(large)) == {2}
+    assert numbers(invariants.clear(large)) == {6}
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_3_the_hinge_moved_to_the_other_edge(case_with, side):
+    case = case_with(has(side))
+    member = part_with(case, side)
+    body = case.new.layer(member.name, "body")
+    far = body.bounds[1 if side == "left" else 0, 0]
+    moved = with_joint(case, member.name, lambda j: replace(j, origin=(far, *j.origin[1:])))
+    assert 3 in numbers(invariants.hinges(moved))
+
+
+def test_3_a_door_that_turns_inward(case_with):
+    case = case_with(has("left", "right"))
+    name = part_with(case, "left", "right").name
+    flipped = with_joint(case, name, lambda j: replace(j, axis=tuple(-a for a in j.axis)))
+    assert 3 in numbers(invariants.hinges(flipped))
+
+
+def test_4_a_handle_left_too_large(case_with):
+    case = case_with(has("out", layer="handle"))
+    name = part_with(case, "out", layer="handle").name
+    large = with_layer(case, name, "handle", lambda piece: scaled(piece, 6.0))
+    assert numbers(invariants.handles(large)) == {4}
+
+
+def test_4_a_handle_on_the_side_of_the_hinge(case_with):
+    case = case_with(has("left", "right", layer="handle"))
+    member = part_with(case, "left", "right", layer="handle")
+    middle = case.new.layer(member.name, "body").bounds.mean(axis=0)[0]
+    beside = with_layer(
+        case, member.name, "handle",
+        lambda p: moved_by(p, lambda v: np.array([2.0 * middle, 0, 0]) - v * (1, -1, -1)),
+    )  # fmt: skip
+    assert numbers(invariants.handles(beside)) == {4}
+
+
+def test_4_a_handle_in_the_air(case_with):
+    case = case_with(has("out", layer="handle"))
+    name = part_with(case, "out", layer="handle").name
+    away = with_layer(case, name, "handle", lambda p: moved_by(p, lambda v: v - (0, 0.02, 0)))
+    assert numbers(invariants.handles(away)) == {4}
+
+
+def test_5_an_axis_that_points_inward(case_with):
+    case = case_with(has("out", layer="handle"))
+    name = part_with(case, "out", layer="handle").name
+    flipped = with_joint(
+        case, name, lambda j: replace(j, axis=(0.0, 1.0, 0.0), limit=Limit(lower=0.0, upper=0.03))
+    )
+    assert 5 in numbers(invariants.rest(alone(flipped, name)))
+
+
+def test_5_the_open_end_stated_as_rest(case_with):
+    case = case_with(has("out"))
+    name = part_with(case, "out").name
+    joint = next(j for j in case.new.joints if j.child == name)
+    opened = with_piece(
+        case, name, lambda p: moved_by(p, lambda v: v + np.multiply(joint.limit.upper, joint.axis))
+    )
+    stated = with_joint(opened, name, lambda j: replace(j, axis=tuple(-a for a in j.axis)))
+    assert 5 in numbers(invariants.rest(stated))
+
+
+def alone(case, name):
+    """The base and one moving part."""
+    base = case.new.parts[0][0]
+    return with_new(
+        case,
+        parts=tuple(part for part in case.new.parts if part[0] in (base, name)),
+        joints=tuple(joint for joint in case.new.joints if joint.child == name),
+    )
+
+
+def test_7_a_drawer_that_leaves_its_rails(case_with):
+    case = case_with(has("out"))
+    name = part_with(case, "out").name
+    length = float(np.ptp(case.new.piece(name).bounds[:, 1]))
+    long = with_joint(case, name, lambda j: replace(j, limit=Limit(lower=0.0, upper=0.99 * length)))
+    assert numbers(invariants.engaged(long)) == {7}
+
+
+def test_9_mirrored_without_turning_the_winding(cases):
+    case = cases[0]
+    name = next(iter(case.new.seams))
+    inward = with_piece(
+        case, name, lambda p: replace(p, mesh=replace(p.mesh, faces=p.mesh.faces[:, [0, 2, 1]]))
+    )
+    assert numbers(invariants.sound(inward)) == {9}
+
+
+def test_9_a_triangle_twice(cases):
+    case = cases[0]
+    name = case.new.parts[0][0]
+
+    def doubled(piece):
+        mesh = piece.mesh
+        twice = {key: np.concatenate([getattr(mesh, key), getattr(mesh, key)[:1]])
+                 for key in ("faces", "uv", "slot", "body")}  # fmt: skip
+        return replace(piece, mesh=replace(mesh, **twice))
+
+    assert 9 in numbers(invariants.sound(with_piece(case, name, doubled)))
+
+
+def test_10_texture_left_stretched(cases):
+    """Left as they were on the donor, fronts that were scaled unequally show it."""
+    caught = 0
+    for case in cases:
+        for entry in case.new.sources:
+            if entry["piece"] != "front" or max(entry["scale"]) / min(entry["scale"]) < 1.5:
+                continue
+            donor = next(m for m in case.sources[entry["source"]].members
+                         if m.name == entry["of"])  # fmt: skip
+            left = with_layer(
+                case, entry["part"], "body",
+                lambda p, d=donor, e=entry: replace(
+                    p, mesh=replace(p.mesh, uv=left_as_it_was(
+                        p.mesh, d.body.mesh, mirrored=e["mirrored"]).uv)
+                ),
+            )  # fmt: skip
+            assert 10 in numbers(invariants.textured(left))
+            caught += 1
+    assert caught >= 3
+
+
+def test_11_a_pane_that_became_wood(case_with):
+    def glazed(case):
+        return any("glass" in s.name for s in case.new.surfaces) and any(
+            case.new.surfaces[k].transmission > 0.0
+            for name in case.new.seams
+            for k in case.new.layer(name, "body").slots
+        )
+
+    case = case_with(glazed)
+    opaque = tuple(replace(s, transmission=0.0) for s in case.new.surfaces)
+    assert numbers(invariants.kept_roles(with_new(case, surfaces=opaque))) == {11}
+
+
+def test_15_one_restrictive_source_binds_the_whole(cases):
+    case = cases[0]
+    used = case.new.sources[0]["source"]
+    bound = {**case.sources, used: replace(case.sources[used], licence=PARTNET)}
+    assert numbers(invariants.licensed(replace(case, sources=bound))) == {15}
+    stated = with_new(replace(case, sources=bound), licence=PARTNET)
+    assert numbers(invariants.licensed(stated)) == set()
+
+
+def test_16_a_donor_of_another_split(cases):
+    case = cases[0]
+    own = split_of("", case.new.donors)
+    other = next(f"x{k}" for k in range(99) if split_of(f"x{k}") != own)
+    mixed = with_new(case, donors=(*case.new.donors, other))
+    assert numbers(invariants.held_out(mixed)) == {16}
+
+
+def test_16_a_donor_that_is_not_named(cases):
+    case = cases[0]
+    used = case.new.sources[0]["source"]
+    sources = {**case.sources, used: replace(case.sources[used], family="unnamed")}
+    assert numbers(invariants.held_out(replace(case, sources=sources))) == {16}

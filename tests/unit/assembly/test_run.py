@@ -1,0 +1,138 @@
+"""Runs: deterministic, resumable, no object twice; what cannot be made says why.
+
+12: equal seeds give equal objects, other seeds others. 13: of two equal objects one is set aside.
+"""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from artgen.assembly.assemble import Assembled, GivenUp, assembled, finished
+from artgen.assembly.choice import Market
+from artgen.assembly.library import Library
+from artgen.assembly.run import (
+    AssembleTask,
+    check_kept,
+    new_object,
+    set_twins_aside,
+)
+from artgen.core.errors import UsageError
+from artgen.core.jsonio import write_json
+from artgen.core.stream import Stream
+from artgen.export.manifest import versions
+from artgen.run_folder import RunFolder
+
+WHAT = "storage_furniture"
+
+
+def content(new):
+    obj = finished(new, asset_id="x", provenance={})
+    arrays = [part.mesh.vertices for part in obj.parts] + [part.mesh.uv for part in obj.parts]
+    return arrays + [part.mesh.atlas for part in obj.parts], obj.provenance["hashes"]
+
+
+def test_12_equal_seeds_give_equal_objects_in_any_process_and_order(market):
+    """Another process has read nothing yet and makes the second object first."""
+    other = Market(Library(market.library.folder), ("storage_furniture", "cabinet"))
+    there = {k: new_object(other, WHAT, 5, k) for k in (1, 0)}
+    for index in (0, 1):
+        here = new_object(market, WHAT, 5, index)
+        assert isinstance(here, Assembled)
+        assert here.sources == there[index].sources
+        for one, same in zip(content(here)[0], content(there[index])[0], strict=True):
+            assert np.array_equal(one, same)
+
+
+def test_12_other_seeds_and_indices_give_other_objects(market):
+    made = [new_object(market, WHAT, seed, index) for seed in (1, 2) for index in range(6)]
+    hashes = [new.hashes["object"] for new in made if isinstance(new, Assembled)]
+    assert len(hashes) >= 10
+    assert len(set(hashes)) == len(hashes)
+
+
+def test_templates_are_dealt_out_evenly(market):
+    count = len(market.template_ids)
+    dealt = [new_object(market, WHAT, 3, index).template for index in range(2 * count)]
+    assert sorted(dealt[:count]) == sorted(dealt[count:]) == sorted(market.template_ids)
+    assert dealt[:count] != dealt[count:]
+
+
+def test_new_objects_change_fronts_and_keep_the_body(cases):
+    for case in cases:
+        slots = len(case.new.seams)
+        changed = {e["part"] for e in case.new.sources if e["piece"] != "handle"}
+        assert len(changed) >= slots / 2.0
+        assert np.array_equal(case.new.parts[0][2].mesh.faces, case.template.base.mesh.faces)
+        used = {e["source"] for e in case.new.sources if e["piece"] != "handle"}
+        assert case.template.id not in used
+
+
+def test_one_wood_one_metal(cases):
+    """All panels of fronts look alike, and all handles."""
+    for case in cases:
+        by_name = {s.name: s for s in case.new.surfaces}
+        assert sum(name.startswith("front") and s.recipe in ("wood", "paint")
+                   for name, s in by_name.items()) <= 1  # fmt: skip
+        shown = set()
+        for name in case.new.seams:
+            handle = case.new.layer(name, "handle")
+            shown |= {case.new.surfaces[k].name for k in handle.slots} if handle else set()
+        assert len({n for n in shown if by_name[n].metallic > 0.5 or n == "handle"}) <= 1
+
+
+def test_what_cannot_be_made_says_why(market):
+    lonely = Market(market.library, ("storage_furniture", "cabinet"))
+    lonely.__dict__["suitable"] = {key: () for key in market.suitable}
+    found = assembled(lonely, market.template_ids[0], Stream(0))
+    assert isinstance(found, GivenUp)
+    assert "would be the template's own" in found.reason
+    assert found.tried
+
+
+def task(index, seed=1):
+    return AssembleTask(what=WHAT, index=index, seed=seed, library=RunFolder("x").root)
+
+
+def stated(folder, index, **facts):
+    home = task(index).place(folder.assets)
+    home.mkdir(parents=True)
+    write_json(home / "manifest.json", {"seed": 1, "library": "d", "versions": versions(), **facts})
+
+
+def test_13_of_equal_objects_the_first_stays(tmp_path):
+    folder = RunFolder(tmp_path)
+    for index, digest in enumerate(("a", "b", "a")):
+        stated(folder, index, hashes={"object": digest})
+    tasks = [task(index) for index in (2, 0, 1)]
+    outcomes = set_twins_aside(folder, tasks)
+    assert [(o.asset_id, o.message) for o in outcomes] == [
+        ("assembled_000002", "is the same object as assembled_000000")
+    ]
+    assert sorted(p.parent.name for p in folder.assets.rglob("manifest.json")) == [
+        "000000",
+        "000001",
+    ]
+    error = json.loads((task(2).place(folder.failed) / "error.json").read_text())
+    assert "same object" in error["error"]
+
+
+def test_13_two_identical_seeds_are_caught(market):
+    """The control: the same seed twice is the same object."""
+    one, other = (new_object(market, WHAT, 1, 0) for _ in range(2))
+    assert one.hashes["object"] == other.hashes["object"]
+    repainted = replace(
+        other, surfaces=tuple(replace(s, color=(0.1, 0.2, 0.3)) for s in other.surfaces)
+    )
+    assert repainted.hashes["object"] != one.hashes["object"]
+
+
+def test_a_run_goes_on_where_it_stopped_but_not_with_another_library(tmp_path):
+    folder = RunFolder(tmp_path)
+    stated(folder, 0)
+    assert check_kept(folder, [task(0), task(1)], "d") == {"assembled_000000"}
+    with pytest.raises(UsageError, match="another library"):
+        check_kept(folder, [task(0)], "e")
+    with pytest.raises(UsageError, match="another seed"):
+        check_kept(folder, [replace(task(0), seed=2)], "d")
