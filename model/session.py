@@ -25,6 +25,7 @@ from model.data.loader import batches
 from model.distributed import Plan, Team, joined, wait_for_all, whole
 from model.material import Material, make_missing, opened
 from model.objective import Objective
+from model.perceptual import packaged_distance
 from model.picture import picture_of
 from model.run_state import Run, begun, differences, resume, trained_state
 from model.schedule import Moment
@@ -112,11 +113,13 @@ def _network(config: Config, start: Path | None) -> Art:
 
 
 def _begun(art: Art, config: Config, team: Team, settings: Mapping[str, Any]) -> Run:
+    compared = config.weights.part_perceptual > 0.0 and config.data.patch_px > 0
     objective = Objective(
         art,
         config.weights,
         precision=config.train.precision,
         field_precision=config.train.field_precision,
+        perceptual=packaged_distance() if compared else None,
     )
     return begun(objective, config.train, items=config.data.batch, team=team, settings=settings)
 
