@@ -88,8 +88,8 @@ def found_rests(
     rests: dict[str, Rest] = {}
     for _ in range(SWEEPS):
         for joint in joints:
-            closes = ROLES[labels[joint.child]].closes
-            rests[joint.name] = rest = _rest(joint, closes, state, boxes)
+            label = labels[joint.child]
+            rests[joint.name] = rest = _rest(joint, label, state, boxes)
             state[joint.name] = rest.q
     return rests
 
@@ -133,7 +133,8 @@ class _Boxes:
         return float(np.isfinite(distance).mean())
 
 
-def _rest(joint: ForeignJoint, closes: bool, state: Mapping[str, float], boxes: _Boxes) -> Rest:
+def _rest(joint: ForeignJoint, label: str, state: Mapping[str, float], boxes: _Boxes) -> Rest:
+    closes, known = ROLES[label].closes, label != "part"
     if joint.rest is not None:
         return Rest(q=joint.rest, reason="given by the user", confidence="given")
     if joint.lower is None or joint.upper is None:
@@ -150,6 +151,9 @@ def _rest(joint: ForeignJoint, closes: bool, state: Mapping[str, float], boxes: 
     level = [q for q in candidates if volumes[q] <= least * (1.0 + TIE)]
     if len(level) == 1:
         return _smallest(level[0], volumes, start)
+    if known and not closes and start in level:
+        reason = "boxes alike, and it closes nothing; the start"
+        return Rest(q=start, reason=reason, confidence="medium")
     touching = {q: boxes.touching(joint, {**state, joint.name: q}) for q in level}
     most = max(touching.values())
     holding = [q for q in level if touching[q] >= most - TOUCHES]
@@ -160,9 +164,6 @@ def _rest(joint: ForeignJoint, closes: bool, state: Mapping[str, float], boxes: 
         nearer = min((joint.lower, joint.upper), key=abs)
         reason = "boxes and contact alike, and its pose as drawn is out of reach; the nearer end"
         return Rest(q=nearer, reason=reason, confidence="low")
-    if not closes:
-        reason = "boxes and contact alike, and it closes nothing; the start"
-        return Rest(q=start, reason=reason, confidence="medium")
     return Rest(q=start, reason="boxes and contact alike; the start", confidence="low")
 
 

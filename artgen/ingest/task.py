@@ -17,6 +17,7 @@ from artgen.ingest.build import Built, build
 from artgen.ingest.foreign import ForeignObject
 from artgen.ingest.options import Options
 from artgen.ingest.partnet.folder import read_partnet
+from artgen.ingest.passages import with_passages
 from artgen.ingest.static import read_static
 from artgen.ingest.urdf import read_urdf
 from artgen.pipeline import Toolbox
@@ -106,7 +107,7 @@ def refused(task: IngestTask, message: str) -> Outcome:
 
 def _written(task: IngestTask, built: Built, tools: Toolbox) -> Outcome:
     """The bundle on disk and its verdict."""
-    obj, folder = built.obj, tools.folder
+    obj, folder = with_passages(built.obj), tools.folder
     for spec, images in built.images:
         tools.textures.keep(spec, images)
     staged = folder.work / "staged" / f"{task.asset_id}_{os.getpid()}"
