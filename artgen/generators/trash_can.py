@@ -87,6 +87,7 @@ def _bins(p: TrashCanParams) -> tuple[PedalBin, ...]:
     dome = p.dome if round_one else min(p.dome, 0.026)
     plastic = Stock(surface="plastic", density=0.45 * ABS, edge=0.0)
     sheet = Stock(surface="shell", density=0.42 * STAINLESS, edge=0.0)
+    dished = Stock(surface="shell", density=0.10 * STAINLESS, edge=0.0)  # 0.7 mm over a thick dome.
     return tuple(
         PedalBin(
             name=name,
@@ -100,7 +101,7 @@ def _bins(p: TrashCanParams) -> tuple[PedalBin, ...]:
             friction=p.lid_friction,
             bag=p.bag,
             shell=sheet,
-            lid=plastic if p.lid_in_plastic else sheet,
+            lid=plastic if p.lid_in_plastic else dished,
             plastic=plastic,
             bucket=Stock(surface="bucket", density=0.7 * POLYPROPYLENE, edge=0.0),
             liner=Stock(surface="liner", density=60.0, edge=0.0),
