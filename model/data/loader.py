@@ -45,7 +45,7 @@ def batches(
             "batch must be a multiple of the ranks, the cursor at least 0"
         )
     where = torch.device(device)
-    work = _Work(source, config, rank=rank, world=world, shows=where.type == "cpu")
+    work = _Work(source, config, rank=rank, world=world, shows=_shown_by_workers(where))
     starts = itertools.count(cursor, config.batch)
     loader: DataLoader[Any] = DataLoader(
         work,
@@ -90,6 +90,11 @@ class _Work(Dataset[Any]):
     def _plan(self, place: int) -> Any:
         stream = Stream(self._config.seed, "item", place)
         return self._source.plan(self._row.at(place), self._config, stream)
+
+
+def _shown_by_workers(device: torch.device) -> bool:
+    """On a CPU workers cast too; a GPU casts whole batches itself."""
+    return device.type == "cpu"
 
 
 def _as_is(made: Any) -> Any:

@@ -8,8 +8,8 @@ import pytest
 import torch
 
 from artgen.core.errors import ModelError
-from artgen.core.stream import Stream
 from model.batch import Batch
+from model.data import loader
 from model.data.loader import batches
 from model.data.merge import chosen, merged
 from model.data.soup_source import SoupSource
@@ -64,18 +64,21 @@ def test_an_epoch_holds_every_object_once_and_another_look_comes_each_time():
     assert not torch.equal(rgb[0], rgb[again])
 
 
-def test_another_device_gives_the_same_batch_to_rounding():
-    """On a GPU workers only draw, and whole batches are cast; here that path runs on the CPU."""
-    config = dataclasses.replace(CONFIG, workers=1)
-    meta = source()
-    plans = [meta.plan(k, config, Stream(9, k)) for k in range(3)]
-    together = meta.batch(plans, config, torch.device("cpu"))
-    alone = merged([meta.batch([plan], config, torch.device("cpu")) for plan in plans])
-    torch.testing.assert_close(together.images.rgb_BTV3HW, alone.images.rgb_BTV3HW)
-    assert together.rays is not None
-    assert alone.rays is not None
-    torch.testing.assert_close(together.rays.part_rgb_BPR3, alone.rays.part_rgb_BPR3)
-    torch.testing.assert_close(together.rays.origin_BR3, alone.rays.origin_BR3)
+@pytest.mark.parametrize("workers", [0, 2])
+def test_a_device_of_its_own_gives_the_same_batches_to_rounding(workers, monkeypatch):
+    """As with a GPU: workers draw, and whole batches are cast where the training is."""
+    monkeypatch.setattr(loader, "_shown_by_workers", lambda device: False)
+    found = merged(_taken(2, workers=workers))
+    wanted = chosen(expected(), range(8))
+    assert found.asset_ids == wanted.asset_ids
+    assert_equal(found.truth, wanted.truth)
+    for name in ("rgb_BTV3HW", "alpha_BTVHW", "intrinsics_BTV33", "camera_from_world_BTV44"):
+        one, other = getattr(found.images, name), getattr(wanted.images, name)
+        torch.testing.assert_close(one, other, msg=lambda text, name=name: f"{name}: {text}")
+    assert found.rays is not None
+    assert wanted.rays is not None
+    torch.testing.assert_close(found.rays.part_rgb_BPR3, wanted.rays.part_rgb_BPR3)
+    torch.testing.assert_close(found.rays.direction_BR3, wanted.rays.direction_BR3)
 
 
 @pytest.mark.parametrize("workers", [0, 1])
