@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -18,6 +18,8 @@ from model.tensor_file import read_tensors, write_tensors
 
 SCHEMA = "artgen-art/1"
 Stored = Literal["float32", "float16"]
+SHIPPED_BYTES = 29_000_000
+"""Of weights; the header takes some thousand more."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,21 +66,44 @@ def save_art(
         name: tensor.to(kind) if tensor.is_floating_point() else tensor
         for name, tensor in chosen.items()
     }
-    meaning = {"config": json.loads(config.to_json()), "card": asdict(card)}
+    meaning = {
+        "config": json.loads(config.to_json()),
+        "card": asdict(card),
+        "encoder": art.encoder_identity,
+    }
     write_tensors(path, written, schema=SCHEMA, meaning=meaning)
 
 
-def load_art(path: Path) -> tuple[Art, Config, ModelCard]:
+def load_art(path: Path, *, encoder: str | None = None) -> tuple[Art, Config, ModelCard]:
     """The network of a file, for inference, in float32 on the CPU.
 
+    Args:
+        encoder: where a frozen encoder's weights lie on this machine, as `ImageTokens.encoder`;
+            as the settings say if not given.
+
     Raises:
-        ModelError: missing, truncated, damaged, of another schema or network.
+        ModelError: missing, truncated, damaged, of another schema or network; or the encoder's
+            weights are not those that it was trained with.
     """
     tensors, meaning = read_tensors(path, schema=SCHEMA)
     config = Config.from_json(json.dumps(meaning["config"]))
+    if encoder is not None:
+        images = replace(config.model.images, encoder=encoder)
+        config = replace(config, model=replace(config.model, images=images))
     art = Art(config.model)
+    if art.encoder_identity != meaning["encoder"]:
+        raise ModelError(
+            f"{path}: was trained with the encoder {meaning['encoder']!r}, found "
+            f"{art.encoder_identity!r}; name the folder or file of those weights"
+        )
     load_weights(art, tensors, path)
     return art.eval(), config, _card(path, meaning["card"])
+
+
+def stored_type(weights: Mapping[str, Tensor]) -> Stored:
+    """The larger type of weights with which a file stays below 30 MB, if any does."""
+    numbers = sum(value.numel() for value in weights.values())
+    return "float32" if 4 * numbers < SHIPPED_BYTES else "float16"
 
 
 def load_weights(art: Art, tensors: Mapping[str, Tensor], path: Path) -> None:
@@ -99,3 +124,31 @@ def _card(path: Path, found: Mapping[str, object]) -> ModelCard:
     except TypeError as error:
         raise ModelError(f"{path}: its model card is of another version ({error})") from error
     return ModelCard(**{**asdict(card), "limits": tuple(card.limits)})
+
+
+def carded(card: ModelCard, *, metrics: Path | None, limits: tuple[str, ...] = ()) -> ModelCard:
+    """The card with the means of an evaluation, and with further limits.
+
+    Args:
+        metrics: evaluation.json of `artgen evaluate`.
+
+    Raises:
+        ModelError: that file is missing or of another kind.
+    """
+    measured = dict(card.metrics)
+    if metrics is not None:
+        measured |= _means(metrics)
+    return replace(card, metrics=measured, limits=(*card.limits, *limits))
+
+
+def _means(path: Path) -> dict[str, float]:
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        overall = found["summary"]["overall"]
+        means = {name: entry["mean"] for name, entry in overall.items()}
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ModelError(
+            f"{path}: cannot be read as an evaluation ({error!r}); give the evaluation.json that "
+            "`artgen evaluate` writes"
+        ) from error
+    return {name: float(mean) for name, mean in means.items() if mean is not None}

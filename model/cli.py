@@ -1,4 +1,4 @@
-"""`artgen train`: the option list, and the help."""
+"""`artgen train` and `artgen ship`: one dataclass each, which is the option list and the help."""
 
 import os
 from collections.abc import Sequence
@@ -10,6 +10,7 @@ import tyro
 from rich.console import Console
 
 from artgen.core.errors import UsageError
+from artgen.core.jsonio import canonical_json
 from model.config import Config, Size
 from model.recipes import RECIPES
 from model.settings import changed
@@ -84,9 +85,7 @@ def _train(command: Train, config: Config) -> None:
         from model.material import Material
         from model.session import run_session  # Torch takes seconds to import.
     except ModuleNotFoundError as error:
-        raise UsageError(
-            f"artgen train needs {error.name}, which is not installed: pip install 'artgen[model]'"
-        ) from error
+        raise _missing("train", error) from error
     material = Material(
         categories=command.categories,
         objects=command.objects,
@@ -102,4 +101,49 @@ def _train(command: Train, config: Config) -> None:
         device=command.device,
         plan=command.plan,
         environment=os.environ,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ship:
+    """Show the model card of a network file, or write a copy with what an evaluation measured.
+
+    For example:
+
+    artgen ship out/train/multiview_nano/art.safetensors
+
+    artgen ship art.safetensors --metrics out/evaluation/evaluation.json --out art_nano.safetensors
+    """
+
+    network: Annotated[Path, tyro.conf.arg(metavar="FILE"), tyro.conf.Positional]
+    """Network file, such as art.safetensors of a training run."""
+    metrics: Path | None = None
+    """evaluation.json of `artgen evaluate`; its means over all objects go into the card."""
+    limits: tuple[str, ...] = ()
+    """Sentences about what the network cannot do, added to the card."""
+    out: Path | None = None
+    """The copy to write; nothing is written if not given, and nothing overwritten."""
+
+
+def ship(argv: Sequence[str]) -> int:
+    """Show a network's model card, or write a copy with measured metrics."""
+    command = tyro.cli(Ship, args=argv, prog="artgen ship")
+    if command.out is not None and command.out.exists():
+        raise UsageError(f"{command.out}: exists; name another --out")
+    try:
+        from model.art_file import carded, load_art, save_art, stored_type
+        from model.run_state import trained_state
+    except ModuleNotFoundError as error:
+        raise _missing("ship", error) from error
+    art, config, found = load_art(command.network)
+    card = carded(found, metrics=command.metrics, limits=command.limits)
+    Console().print_json(canonical_json(card))
+    if command.out is not None:
+        save_art(command.out, art, config, card, stored=stored_type(trained_state(art)))
+    return 0
+
+
+def _missing(command: str, error: ModuleNotFoundError) -> UsageError:
+    return UsageError(
+        f"artgen {command} needs {error.name}, which is not installed: pip install 'artgen[model]'"
     )

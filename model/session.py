@@ -17,7 +17,7 @@ from artgen.core.jsonio import plain, write_json
 from artgen.progress import Show, progress
 from artgen.run_folder import locked
 from model.art import Art
-from model.art_file import ModelCard, Stored, load_art, load_weights, save_art
+from model.art_file import ModelCard, load_art, load_weights, save_art, stored_type
 from model.batch import Batch
 from model.config import Config
 from model.data.items import Source
@@ -32,8 +32,6 @@ from model.schedule import Moment
 from model.train import Draw, Supply, train
 
 RESULT = "art.safetensors"
-SHIPPED_BYTES = 29_000_000
-"""Weights that need more are rounded to float16: a shipped file stays below 30 MB."""
 LIMITS = (
     "Learned from procedural objects shown by a ray caster; not tried on photographs.",
     "Expects the object alone, from known cameras, in two or more states.",
@@ -174,7 +172,5 @@ def _export(run: Run, art: Art, config: Config, card: ModelCard, path: Path) -> 
     """Ship the moving average of the weights, in the larger type that stays within the limit."""
     weights = {name.removeprefix("art."): whole(value) for name, value in run.average.items()}
     if run.team.leads:
-        numbers = sum(value.numel() for value in weights.values())
-        stored: Stored = "float32" if 4 * numbers < SHIPPED_BYTES else "float16"
-        save_art(path, art, config, card, weights=weights, stored=stored)
+        save_art(path, art, config, card, weights=weights, stored=stored_type(weights))
     wait_for_all(run.team)
