@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from model.batch import Articulation
+from model.batch import Articulation, TensorBlock
 from model.precision import full
 from model.rays import Growth, half_sides
 
@@ -17,7 +17,7 @@ ABSENT = 1e3
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoxField:
+class BoxField(TensorBlock):
     """Every part is the union of axis-aligned boxes, each of one color.
 
     Distances are exact outside, and inside a single box; inside a union they are too small by

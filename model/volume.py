@@ -54,7 +54,7 @@ def render(
     inverse_beta: Tensor | float,
     samples: int,
     coarse: int = 0,
-    quadrature: Quadrature = "linear",
+    quadrature: Quadrature = "point",
     growth: Growth = Growth(),  # noqa: B008 (frozen)
     stop_gradient: bool = True,
     generator: torch.Generator | None = None,
@@ -86,7 +86,7 @@ def render_along(
     inverse_beta: Tensor | float,
     samples: int,
     coarse: int = 0,
-    quadrature: Quadrature = "linear",
+    quadrature: Quadrature = "point",
     growth: Growth = Growth(),  # noqa: B008 (frozen)
     stop_gradient: bool = True,
     generator: torch.Generator | None = None,
