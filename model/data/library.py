@@ -175,7 +175,8 @@ def _stated(joint: Joint) -> dict[str, Any]:
 def _steps(vertices: NDArray[np.float32], box: Floats) -> NDArray[np.uint16]:
     extent = box[1] - box[0]
     share = (vertices - box[0]) / np.where(extent > 0.0, extent, 1.0)
-    return np.rint(STEPS * share).astype(np.uint16)
+    steps: NDArray[np.uint16] = np.rint(STEPS * share).astype(np.uint16)
+    return steps
 
 
 def write_library(path: Path, library: Library) -> None:

@@ -112,7 +112,7 @@ class _Woven:
 def _hundredths(weights: NDArray[np.float64]) -> NDArray[np.int64]:
     """Whole shares of `BLOCK` that come nearest to the weights (largest remainder)."""
     exact = BLOCK * weights / weights.sum()
-    counts = np.floor(exact).astype(np.int64)
+    counts: NDArray[np.int64] = np.floor(exact).astype(np.int64)
     for k in np.argsort(counts - exact, kind="stable")[: BLOCK - int(counts.sum())]:
         counts[k] += 1
     return counts
