@@ -51,7 +51,7 @@ class Settings:
     """kg/m3 of everything; no source states it."""
     thickness: float = 0.004
     """m that open surfaces weigh as."""
-    pieces: int = 24
+    pieces: int = 40
     """Cuts that the collision of one part may take."""
     rest: Path | None = None
     """JSON file of closed poses that you know better: {"45940": {"3": 90.0}} puts the part that

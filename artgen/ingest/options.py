@@ -34,7 +34,7 @@ class Options:
     max_parts: int = 40
     density: float = 500.0
     thickness: float = 0.004
-    pieces: int = 24
+    pieces: int = 40
     rests: tuple[GivenRest, ...] = ()
     turn_deg: float = -90.0
     up: Up = "y"

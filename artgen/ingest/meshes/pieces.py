@@ -2,7 +2,8 @@
 
 A body whose hull it nearly fills is its own piece. Others are cut where that saves the most room,
 the emptiest piece first, until all are full enough or there are as many as allowed. A shell is
-full if its hull is no thicker than a wall; so hollows of open surfaces stay open.
+full if its hull is no thicker than a wall and shows no more surface than it has; so hollows of open
+surfaces stay open, and so do frames.
 """
 
 import heapq
@@ -27,6 +28,8 @@ CRUMB = 2e-5
 """Of the cube of the part's diagonal: a hollow of less room is not worth a cut."""
 FILM = 1e-7
 """Of a solid: a cut along a face leaves films of no volume, which are no pieces."""
+PLATE = 0.25
+"""Of its next longer side: what is thinner is a plate."""
 PEEL = 0.05
 """Of a chunk's area that a wall has at least to be taken off."""
 SHEET = 1e-3
@@ -156,8 +159,21 @@ def _chunk(corners: Floats, solid: m3.Manifold | None, wall: float) -> Chunk:
     length = np.linalg.norm(normal, axis=1)
     sheet = SHEET * (normal / length.clip(min=1e-300)[:, None])[:, None]
     hull = m3.Manifold.hull_points(np.concatenate([corners, corners - sheet]).reshape(-1, 3))
-    allowed = max(float(length.sum()) / 4.0 * wall, wall**3)
+    area = float(length.sum()) / 2.0
+    shown = min(1.0, _face_area(corners, normal) * 2.0 / max(float(hull.surface_area()), 1e-300))
+    allowed = min(max(area / 2.0 * wall, wall**3), float(hull.volume()) * shown / FULL)
     return Chunk(corners=corners, solid=None, hull=hull, excess=float(hull.volume() - allowed))
+
+
+def _face_area(corners: Floats, normal: Floats) -> float:
+    """m2 of a shell that stand for its hull's larger side: of a plate, what looks along its thin
+    axis to the one side or to the other, as it may have both; else all."""
+    spans = np.ptp(corners.reshape(-1, 3), axis=0)
+    thin, *wide = np.argsort(spans)
+    if spans[thin] > PLATE * spans[wide[0]]:
+        return float(np.linalg.norm(normal, axis=1).sum()) / 2.0
+    along = normal[:, thin] / 2.0
+    return float(max(along[along > 0.0].sum(), -along[along < 0.0].sum()))
 
 
 def _settled(chunk: Chunk) -> Chunk:
@@ -204,7 +220,9 @@ def best_cut(corners: Floats, wall: float, *, solid: bool) -> tuple[int, float]:
                 best, found = volume, (axis, float(place))
             for side, span in zip(sides, spans, strict=True):
                 area = _area(side)
-                if area > largest and np.prod(span) <= area / 2.0 * thick:
+                face = float(np.prod(np.sort(span)[1:]))
+                full = area >= FULL * face and np.prod(span) <= area / 2.0 * thick
+                if area > largest and full:
                     largest, peeled = area, (axis, float(place))
     axis = int(np.argmax(upper - lower))
     return found or peeled or (axis, float((lower[axis] + upper[axis]) / 2.0))

@@ -56,6 +56,20 @@ def test_a_tray_stays_open_and_its_walls_stand(corners: Floats) -> None:
     assert max(convexity_gap(piece) for piece in pieces) <= GAP
 
 
+@pytest.mark.parametrize("sides", [1, 2])
+def test_a_frame_of_open_surfaces_stays_open(sides: int) -> None:
+    """The front flange of an oven: a flat sheet with a hole, or its front and back without rims."""
+    frame = (box((0.6, 0.1, 0.5)) - box((0.5, 0.2, 0.4), at=(0.0, 0.0, 0.05))).trimesh().triangles
+    normal = np.cross(frame[:, 1] - frame[:, 0], frame[:, 2] - frame[:, 0])
+    sheet = frame[normal[:, 1] < -1e-9]
+    behind = np.where(np.arange(3) == 1, sheet + 0.008, sheet)[:, ::-1]
+    sheet = sheet if sides == 1 else np.concatenate([sheet, behind])
+    pieces = convex_pieces({"part": bodies_from(sheet)}, most=24)["part"]
+    assert 4 <= len(pieces) <= 8
+    assert not holds(pieces, np.array([0.0, -0.0495, 0.25]))
+    assert holds(pieces, np.array([0.28, -0.0495, 0.25]))
+
+
 def test_pieces_of_a_solid_cover_it() -> None:
     solid = m3.Manifold(m3.Mesh64(*_arrays(tray())))
     pieces = convex_pieces({"part": bodies_from(tray())}, most=24)["part"]
