@@ -28,6 +28,8 @@ PLANES = (8, 16, 32, 64, 128)
 RESOLUTIONS = (12, 16, 24, 32, 48, 64, 96, 128)
 PLANE_PX = 64
 """Of the planes that samples, precision and meshes are measured on."""
+SURFACE_POINTS = 4096
+"""Points of every part at which distances are compared."""
 SHARP = 100.0
 """1 / radii, at which costs are measured and planes compared."""
 
@@ -75,7 +77,7 @@ def plane_rows(
     """Planes of growing resolution, each taught the scene anew."""
     true = reference(scene.field, scene, SHARP)
     slots = torch.arange(len(PARTS), device=device)
-    points = surface_points(scene.field, stream.child("surface"))
+    points = surface_points(scene.field, stream.child("surface"), SURFACE_POINTS)
     there = scene.field.distances(points, slots)
     for plane_px in PLANES:
         field = Taught(scene.field, plane_px, steps, stream.child("taught", plane_px)).field()
@@ -99,7 +101,7 @@ def precision_rows(
     exact = copy.deepcopy(taught).double()
     fine = PlaneField(exact.planes, exact.size_BP3.double(), exact.head)
     double = scene.mapped(lambda tensor: tensor.double() if tensor.is_floating_point() else tensor)
-    points = surface_points(scene.field, stream.child("surface"))
+    points = surface_points(scene.field, stream.child("surface"), SURFACE_POINTS)
     slots = torch.arange(len(PARTS), device=device)
     with torch.no_grad():
         there = fine.distances(points.double(), slots)
@@ -145,7 +147,7 @@ def mesh_rows(field: PlaneField, scene: Scene, device: str, told: Advance) -> It
         told(f"{resolution} cells")
 
 
-def surface_points(field: BoxField, stream: Stream, count: int = 4096) -> Tensor:
+def surface_points(field: BoxField, stream: Stream, count: int) -> Tensor:
     """(P, count, 3) coordinates of points at the surface: the nearest of many even draws."""
     generator = torch.Generator().manual_seed(int(stream.generator().integers(2**31)))
     drawn = torch.rand(1, len(PARTS), 32 * count, 3, generator=generator) * 2.0 - 1.0

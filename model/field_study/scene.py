@@ -42,9 +42,9 @@ DOOR: tuple[Board, ...] = (
     ((0.33, -0.345, -0.17), (0.025, 0.035, 0.2), STEEL),
 )
 PARTS = (CARCASS, DRAWER, DOOR)
-FOCAL = 1.35
+FOCAL = 1.2
 """Focal length over image width."""
-DISTANCE = 3.0
+DISTANCE = 3.2
 """From the eye to the middle, radii."""
 AZIMUTHS, ELEVATION = (-0.6, 0.8), 0.5
 """Of the views, rad."""
