@@ -73,7 +73,10 @@ TRAIN: Mapping[Size, TrainConfig] = {
         learning_rate=1e-3,
         warmup_steps=300,
         precision="float32",
-        samples=16,
+        samples=8,
+        coarse=16,
+        rendered=0.4,
+        forced=0.6,
         stages=(Stage(start=0.0, target_px=48),),
         inverse_beta=(10.0, 60.0),
     ),
@@ -111,7 +114,10 @@ def static_pretrain(size: Size) -> Config:
     """Shapes and boxes of parts at rest, before anything moves."""
     config = multiview(size)
     data = dataclasses.replace(config.data, motion="rest")
-    return dataclasses.replace(config, recipe="static_pretrain", data=data, weights=STATIC)
+    train = dataclasses.replace(config.train, rendered=0.0)
+    return dataclasses.replace(
+        config, recipe="static_pretrain", data=data, weights=STATIC, train=train
+    )
 
 
 def debug(size: Size) -> Config:
@@ -123,7 +129,13 @@ def debug(size: Size) -> Config:
         recipe="debug",
         data=dataclasses.replace(config.data, batch=4, rays=min(config.data.rays, 256), patch_px=0),
         train=dataclasses.replace(
-            train, steps=20, warmup_steps=5, save_every=10, log_every=1, picture_every=10
+            train,
+            steps=20,
+            warmup_steps=5,
+            save_every=10,
+            log_every=1,
+            picture_every=10,
+            rendered=0.0,
         ),
     )
 

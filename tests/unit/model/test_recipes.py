@@ -38,6 +38,14 @@ def test_static_training_renders_and_learns_boxes_alone(size: str) -> None:
     assert (weights.limits, weights.parent) == (0.0, 0.0)
     assert min(weights.center, weights.size, weights.part_rgb, weights.part_mask) > 0.0
     assert config.data.motion == "rest"
+    assert config.train.rendered == 0.0
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_debugging_runs_the_renderer_from_the_first_step(size: str) -> None:
+    config = RECIPES["debug"](size)  # type: ignore[arg-type]
+    assert config.train.rendered == 0.0
+    assert config.data.rays > 0
 
 
 def test_without_shapes_there_are_no_rays() -> None:
