@@ -140,8 +140,9 @@ def _groceries(p: FridgeParams, zone: Zone, room: LinedCavity, levels: list[floa
     """A rank of one kind on each level, left or right, if it fits."""
     made: list[Body] = []
     (x0, _, _), (x1, y1, z1) = room.low, room.high
+    stocked = 1 if p.layout == "four_door" else 3  # Bundles of many doors stay below 3 MB.
     for k, z in enumerate(levels):
-        kind = p.groceries[k % len(p.groceries)] if k < 3 else "none"
+        kind = p.groceries[k % len(p.groceries)] if k < stocked else "none"
         above = levels[k + 1] - 0.026 if k + 1 < len(levels) else z1 - fittings.BAR - 0.01
         if kind == "none" or above - z < CONTAINERS[kind].height + 0.012:
             continue

@@ -244,7 +244,8 @@ class FridgeParams:
     def _bins(self, low: float, high: float) -> tuple[tuple[float, float], ...]:
         """z and height of the bins: the lowest is the highest, for bottles."""
         room = high - low
-        count = max(1, min(self.door_bins, int(room / 0.20)))
+        most = min(self.door_bins, 2) if self.layout == "four_door" else self.door_bins
+        count = max(1, min(most, int(room / 0.20)))
         step = room / count
         return tuple(
             (low + k * step, (1.25 if k == 0 else 1.0) * self.bin_height) for k in range(count)
