@@ -111,6 +111,17 @@ class Market:
             weight[used] *= np.sqrt(use[used].mean() / use[used])
         return weight
 
+    def expected_use(self) -> Floats:
+        """(D,) share of all slots that each donor fills if every template comes equally often and
+        first choices fit."""
+        use = np.zeros(len(self.donors))
+        chosen = set(self.template_ids)
+        for (template, _), places in self.suitable.items():
+            if template in chosen and places:
+                own = list(places)
+                use[own] += self.weights[own] / self.weights[own].sum()
+        return np.asarray(use / use.sum())
+
     def usable(self) -> frozenset[int]:
         """Places of donors that suit some slot of some template."""
         return frozenset(place for places in self.suitable.values() for place in places)

@@ -65,6 +65,8 @@ def _facts(
         ("donors used / usable", f"{len(uses)} / {usable}", ""),
         ("entropy of donor use over that of even use",
          f"{entropy_share(list(uses.values()), usable):.3f}", ">= 0.8"),
+        ("the same of expected use, over many objects",
+         f"{entropy_share(market.expected_use().tolist(), usable):.3f}", ">= 0.8"),
         ("texel density of a part over the object's median",
          f"{min(r.least for r in accepted):.3f} to {max(r.most for r in accepted):.3f}",
          "0.8 to 1.25"),

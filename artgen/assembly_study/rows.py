@@ -186,7 +186,7 @@ def left_as_it_was(body: TriMesh, donor: TriMesh, *, mirrored: bool) -> TriMesh:
     )
 
 
-def entropy_share(uses: Sequence[int], available: int) -> float:
+def entropy_share(uses: Sequence[float], available: int) -> float:
     """Shannon entropy of how often each donor was used, over that of an even use of all that are
     available (Shannon 1948)."""
     share = np.array([use for use in uses if use > 0], float)
