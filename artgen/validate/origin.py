@@ -24,15 +24,22 @@ class Origin:
 
 
 def origin_of(manifest: Mapping[str, Any]) -> Origin:
-    """Of a manifest as it stands, whatever it holds; one that names no source is ours."""
+    """Of a manifest as it stands, whatever it holds; one that names no source is ours, and
+    nothing of ours is excused from being closed."""
     source, shells = manifest.get("source"), manifest.get("shells")
     dataset = source.get("dataset") if isinstance(source, Mapping) else OURS
+    if dataset == OURS:
+        return Origin()
     if not isinstance(shells, Mapping):
-        return Origin(foreign=dataset != OURS)
+        return Origin(foreign=True)
     bodies, thickness = shells.get("bodies"), shells.get("thickness")
     listed = bodies.items() if isinstance(bodies, Mapping) else ()
     return Origin(
-        foreign=dataset != OURS,
-        shells={str(p): frozenset(own) for p, own in listed if isinstance(own, list)},
+        foreign=True,
+        shells={
+            str(part): frozenset(number for number in own if isinstance(number, int))
+            for part, own in listed
+            if isinstance(own, list)
+        },
         thickness=float(thickness) if isinstance(thickness, int | float) else 0.0,
     )
