@@ -107,6 +107,10 @@ class Evaluate:
     """Cells of marching cubes along a part, for a network's surfaces; 0 makes none."""
     samples: int = 48
     """Samples a ray, for a network's images; 0 renders none."""
+    pose_noise_deg: float = 0.0
+    """Deviation of the turn by which poses stated to a network are off, about each axis."""
+    pose_noise: float = 0.0
+    """Deviation of their shift, radii. Its images are not judged under noise."""
     views: int = 4
     """Views a state that a baseline is shown; a network states its own."""
     pixels: int = 48
@@ -181,6 +185,8 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
         "lpips": command.lpips,
         "fit_steps": command.fit_steps,
         "train_count": command.train_count,
+        "pose_noise_deg": command.pose_noise_deg,
+        "pose_noise": command.pose_noise,
     }
     module = import_module("model.evaluation.network_run")
     with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):

@@ -58,6 +58,7 @@ class NetworkRun:
         lpips: folder of its weights, or None.
         fit_steps: updates of `fit`.
         train_count: training objects of a baseline at most.
+        pose_noise_deg, pose_noise: of the poses that are stated to a network, as in `DataConfig`.
     """
 
     predictions: str
@@ -75,6 +76,13 @@ class NetworkRun:
     lpips: Path | None = None
     fit_steps: int = 600
     train_count: int = 1000
+    pose_noise_deg: float = 0.0
+    pose_noise: float = 0.0
+
+    @property
+    def noisy(self) -> bool:
+        """Whether stated poses are off; images of other views cannot be judged then."""
+        return max(self.pose_noise_deg, self.pose_noise) > 0.0
 
 
 def run(asked: NetworkRun, protocol: Protocol, folder: Path) -> list[Record]:
@@ -139,11 +147,11 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
             config=config,
             counts=asked.counts,
             resolution=asked.resolution,
-            samples=asked.samples,
+            samples=0 if asked.noisy else asked.samples,
             gated=asked.gated,
             perceptual=None if asked.lpips is None else load_lpips(asked.lpips),
         )
-        return own, shown_to(config)
+        return own, shown_to(config, asked)
     if asked.predictions == "fit":
         steps = dataclasses.replace(FitConfig(), steps=asked.fit_steps)
         return FitPredictor(steps), baseline_data(asked.states, asked.views, asked.pixels)
@@ -173,9 +181,11 @@ def baseline_data(states: int, views: int, pixels: int) -> DataConfig:
     return DataConfig(states=states, views=views, input_px=pixels, render_px=wide, target_px=pixels)
 
 
-def shown_to(config: Config) -> DataConfig:
-    """The data that a network was trained on, as many states as it was shown."""
-    return dataclasses.replace(config.data, batch=1)
+def shown_to(config: Config, asked: NetworkRun) -> DataConfig:
+    """The data that a network was trained on, with the noise that is asked for."""
+    return dataclasses.replace(
+        config.data, batch=1, pose_noise_deg=asked.pose_noise_deg, pose_noise=asked.pose_noise
+    )
 
 
 def training_items(

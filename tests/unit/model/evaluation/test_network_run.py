@@ -1,5 +1,6 @@
 """Networks and baselines through the command, on a library of six objects."""
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -13,12 +14,28 @@ from model.batch import Articulation
 from model.data.library import write_library
 from model.evaluation.cli import evaluate
 from model.evaluation.held_out import flips
+from model.evaluation.network_run import NetworkRun, shown_to
 from model.evaluation.predictors import with_more_states
 from model.recipes import RECIPES
 from tests.unit.model.data.small import library
 from tests.unit.model.evaluation.test_predictions import articulation
 
 OPTIONS = ["--points", "200", "--part-points", "200", "--mask-pixels", "16", "--split", "all"]
+
+ASKED = {
+    "predictions": "art.safetensors",
+    "truth": Path("library.npz"),
+    "train": None,
+    "split": None,
+    "count": 1,
+    "states": 2,
+    "views": 2,
+    "pixels": 48,
+    "counts": False,
+    "resolution": 0,
+    "samples": 0,
+    "gated": False,
+}
 
 
 @pytest.fixture(scope="module")
@@ -62,6 +79,18 @@ def test_a_baseline_without_training_objects_is_told(place: Path) -> None:
     assert not (place / "none" / "run.json").exists()
     with pytest.raises(UsageError, match="did you mean 'pixels'"):
         run(place, "pixel", "none")
+
+
+def test_noise_of_poses_is_what_is_asked_for() -> None:
+    """Not that of the training; images of other views are left out under noise."""
+    config = RECIPES["debug"]("nano")
+    trained = dataclasses.replace(config, data=dataclasses.replace(config.data, pose_noise=0.1))
+    clean = NetworkRun(**ASKED)
+    assert shown_to(trained, clean).pose_noise == 0.0
+    assert not clean.noisy
+    noisy = NetworkRun(**ASKED, pose_noise_deg=2.0)
+    assert shown_to(trained, noisy).pose_noise_deg == 2.0
+    assert noisy.noisy
 
 
 def test_a_new_state_is_reached_by_the_true_motion() -> None:
