@@ -61,5 +61,5 @@ def test_the_readme_and_the_documents_name_every_command_and_link_to_files_that_
     for name in ("generate", "validate", "render", "shard", "inspect", "categories", "doctor"):
         assert f"`artgen {name}" in readme
     for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
-        for target in re.findall(r"\]\(([^)#:]+)\)", page.read_text()):
+        for target in re.findall(r"\]\(([^)#:\"]+)\)", page.read_text()):
             assert (page.parent / target).exists(), f"{page.name}: {target}"

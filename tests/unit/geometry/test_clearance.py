@@ -1,5 +1,6 @@
 """Clearance: the box filter never hides what exact booleans would find."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -187,10 +188,11 @@ def test_a_wedge_that_only_the_cut_body_shows_is_no_overlap() -> None:
 
 
 def kettle_body(name: str) -> Shape:
-    """A body of wall_and_seal.npz, whose vertices are whole multiples of 1e-7 m."""
-    kept = np.load(Path(__file__).parent / "wall_and_seal.npz")
+    """A body of wall_and_seal.json, whose vertices are whole multiples of 1e-7 m."""
+    kept = json.loads((Path(__file__).parent / "wall_and_seal.json").read_text())
+    vertices = np.array(kept[f"{name}_vertices"]).reshape(-1, 3) / 1e7
     return shape_of_mesh(
-        TriMesh(vertices=kept[f"{name}_vertices"] / 1e7, faces=kept[f"{name}_faces"])
+        TriMesh(vertices=vertices, faces=np.array(kept[f"{name}_faces"]).reshape(-1, 3))
     )
 
 
