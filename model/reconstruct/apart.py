@@ -15,12 +15,14 @@ from artgen.geometry.solid import Solid, union
 from artgen.validate.sweep import Sweep, sweep_poses
 from model.reconstruct.cover import Convex, convex_cover, grown, swept
 from model.reconstruct.scene import Scene, sweeps_of
-from model.reconstruct.shapes import mended
+from model.reconstruct.shapes import mended, sound
 
 MOST_INSIDE = 0.08
 """Share of a moving part that may lie inside another on its way and be taken for noise."""
 MOST_EATEN = 0.2
 """Share of its volume that a part may lose to another's way."""
+MOST_SWALLOWED = 0.9
+"""The same at rest, where the other part could give way instead."""
 MOST_GIVEN = 0.5
 """The same where its way would else be all but lost."""
 LEAST_LEFT = 0.4
@@ -64,14 +66,28 @@ def apart_at_rest(scene: Scene, cutter: Cutter) -> Scene:
     for place, one in enumerate(names):
         for other in names[place + 1 :]:
             loses, wins = ranked(scene, one, other)
-            tool, whole = union(cutter.tool(scene, wins)), scene.solids[loses]
-            if (whole & tool).volume <= WORTH:
-                continue
-            left = cutter.mended(whole - tool)
-            share = 1.0 - left.volume / whole.volume
-            scene = scene.with_solid(loses, left)
-            scene = scene.told(f"{loses} gave way to {wins} at rest, by {share:.1%} of its volume")
+            eaten = _eaten(scene, cutter, loses, wins)
+            if eaten > MOST_SWALLOWED and _eaten(scene, cutter, wins, loses) < eaten:
+                loses, wins = wins, loses
+            if eaten > 0.0:
+                scene = _given_way(scene, cutter, loses, wins)
     return scene
+
+
+def _eaten(scene: Scene, cutter: Cutter, loses: str, wins: str) -> float:
+    """Share of its volume that a part would lose to another and its clearance."""
+    whole = scene.solids[loses]
+    shared = (whole & union(cutter.tool(scene, wins))).volume
+    return 0.0 if shared <= WORTH else shared / whole.volume
+
+
+def _given_way(scene: Scene, cutter: Cutter, loses: str, wins: str) -> Scene:
+    """A part without what another and its clearance take."""
+    whole = scene.solids[loses]
+    left = cutter.mended(whole - union(cutter.tool(scene, wins)))
+    share = 1.0 - left.volume / whole.volume
+    told = f"{loses} gave way to {wins} at rest, by {share:.1%} of its volume"
+    return scene.with_solid(loses, left).told(told)
 
 
 def ranked(scene: Scene, one: str, other: str) -> tuple[str, str]:
@@ -179,3 +195,10 @@ def _free(scene: Scene, cutter: Cutter, sweep: Sweep, pair: tuple[str, str]) -> 
     course = inverted_poses(poses[pair[0]]) @ poses[pair[1]]
     shared = shared_volumes(cutter.tool(scene, pair[1]), scene.solids[pair[0]], course)
     return not (shared > WORTH).any()
+
+
+def made_sound(scene: Scene) -> Scene:
+    """Every part without triangles that finishing would flatten."""
+    for name, solid in scene.solids.items():
+        scene = scene.with_solid(name, sound(solid))
+    return scene

@@ -32,7 +32,7 @@ from artgen.core.surface import SurfaceSpec
 from artgen.finish import finish
 from artgen.geometry.solid import Solid, union
 from artgen.textures.images import Image, TextureSet
-from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways
+from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways, made_sound
 from model.reconstruct.contact import contact_pieces
 from model.reconstruct.guess import ObjectGuess
 from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
@@ -123,7 +123,7 @@ def assemble(
         changes=tuple(told),
     )
     cutter = Cutter(wishes.clearance)
-    scene = clear_ways(apart_at_rest(scene, cutter), cutter)
+    scene = made_sound(clear_ways(apart_at_rest(scene, cutter), cutter))
     draft = _draft(scene, wishes)
     placed = canonicalize(draft)
     shift = part_bounds(placed.parts[0])[0] - part_bounds(draft.parts[0])[0]

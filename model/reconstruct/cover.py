@@ -45,8 +45,9 @@ def convex_cover(solid: Solid, *, tolerance: float) -> Convex:
         if cut is None:
             break
         own, whole = pieces.pop(worst)
-        halves = zip(_split(own, *cut), _split(whole, *cut), strict=True)
-        pieces += [pair for pair in halves if not (pair[0].is_empty or pair[1].is_empty)]
+        for sketched, half in zip(_split(own, *cut), _split(whole, *cut), strict=True):
+            if not half.is_empty:
+                pieces.append((half if sketched.is_empty else sketched, half))
     return tuple(_plain_hull(whole, tolerance) for _, whole in pieces)
 
 

@@ -89,7 +89,12 @@ class Scene:
         lower = path[min(max([p for p in met if p <= rest], default=-1) + 1, rest)]
         if not lower < upper:
             return self.told(f"{joint.name} cannot leave rest for {what}; its way was left as is")
-        limit = Limit(lower=min(float(lower), 0.0), upper=max(float(upper), 0.0))
+        if path[0] < 0.0:  # Rest stays in the middle of what turns both ways.
+            upper = min(-lower, upper)
+            lower = -upper
+        if not upper > 0.0:
+            return self.told(f"{joint.name} cannot leave rest for {what}; its way was left as is")
+        limit = Limit(lower=float(lower) + 0.0, upper=float(upper))
         ended = dataclasses.replace(joint, limit=limit)
         joints = tuple(ended if own.name == joint.name else own for own in self.joints)
         scene = dataclasses.replace(self, joints=joints)

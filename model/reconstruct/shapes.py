@@ -4,16 +4,26 @@ from dataclasses import dataclass
 
 import manifold3d as m3
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
+from artgen.core.conventions import VERTEX_DECIMALS
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Ints
-from artgen.geometry.solid import Solid, slab, union
+from artgen.geometry.measure import welded
+from artgen.geometry.solid import Solid, slab
 from model.reconstruct.guess import PartGuess
 
 CRUMB = 0.02
 """Pieces below this share of a part's largest piece are floaters of the field."""
 MOST_LOST = 0.05
 """Share of its volume that a part may gain or lose by one round of merging triangles."""
+ROUNDS = (1e-4, 2e-4, 4e-4, 8e-4)
+"""m; within which triangles are merged in turn, until none is flat."""
+GRID = 1e-6
+"""m; vertices of a finished part lie on it, so that finishing moves them no more."""
+SMALLEST = 2e-14
+"""m2; twice what validators ask of a triangle."""
 LEAST_SIDE = 0.002
 """m; a predicted box is not thinner."""
 
@@ -55,12 +65,9 @@ def _closed(guess: PartGuess, faces: Ints, changes: list[str]) -> m3.Manifold | 
 
 
 def _tidy(solid: Solid, tolerance: float, triangles: int, changes: list[str]) -> Solid:
-    pieces = solid.pieces()
-    largest = max(piece.volume for piece in pieces)
-    kept = [piece for piece in pieces if piece.volume >= CRUMB * largest]
-    if len(kept) < len(pieces):
-        changes.append(f"{len(pieces) - len(kept)} floating crumbs were dropped")
-    whole = kept[0] if len(kept) == 1 else union(kept)
+    whole, dropped = without_small_pieces(solid, CRUMB)
+    if dropped:
+        changes.append(f"{dropped} floating crumbs or bubbles were dropped")
     moved = 0.0
     while moved == 0.0 or whole.manifold.num_tri() > triangles:
         simple = whole.manifold.simplify(tolerance)
@@ -68,6 +75,25 @@ def _tidy(solid: Solid, tolerance: float, triangles: int, changes: list[str]) ->
             break
         whole, moved, tolerance = Solid(simple), moved + tolerance, 1.5 * tolerance
     return whole
+
+
+def without_small_pieces(solid: Solid, share: float) -> tuple[Solid, int]:
+    """The solid less its connected surfaces, outer or inner, that enclose less than a share of what
+    the largest does; and how many those are."""
+    mesh = solid.trimesh()
+    faces, count = mesh.faces, len(mesh.vertices)
+    ends = np.concatenate([faces[:, :2], faces[:, 1:]])
+    links = coo_array((np.ones(len(ends)), tuple(ends.T)), shape=(count, count))
+    pieces, label = connected_components(links, directed=False)
+    a, b, c = mesh.triangles.transpose(1, 0, 2)
+    sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))
+    size = np.abs(np.bincount(label[faces[:, 0]], weights=sixfold, minlength=pieces))
+    kept = size >= share * size.max()
+    if kept.all():
+        return solid, 0
+    used, index = np.unique(faces[kept[label[faces[:, 0]]]], return_inverse=True)
+    found = m3.Mesh64(mesh.vertices[used], index.reshape(-1, 3).astype(np.uint64))
+    return Solid(m3.Manifold(found)), int((~kept).sum())
 
 
 def predicted_box(guess: PartGuess) -> Solid:
@@ -84,11 +110,40 @@ def mended(solid: Solid, tolerance: float) -> Solid:
     Raises:
         GeometryError: nothing is left.
     """
-    pieces = solid.pieces()
-    if not pieces:
+    if solid.is_empty:
         raise GeometryError("a reconstructed part vanished under its neighbors")
-    largest = max(piece.volume for piece in pieces)
-    kept = [piece for piece in pieces if piece.volume >= CRUMB**2 * largest]
-    whole = solid if len(kept) == len(pieces) else union(kept)
+    whole, _ = without_small_pieces(solid, CRUMB**2)
     simple = whole.manifold.simplify(tolerance)
     return whole if simple.is_empty() else Solid(simple)
+
+
+def sound(solid: Solid) -> Solid:
+    """The solid without triangles that finishing, which rounds to 1e-7 m, would flatten: merged
+    within more and more, as little as it takes."""
+    best = solid
+    for tolerance in (0.0, *ROUNDS):
+        simple = solid.manifold.simplify(tolerance) if tolerance else solid.manifold
+        if simple.is_empty():
+            break
+        best = _on_grid(Solid(simple))
+        if _smallest(best) > SMALLEST:
+            return best
+    return best
+
+
+def _on_grid(solid: Solid) -> Solid:
+    """Vertices rounded to `GRID` m, where that leaves a closed surface."""
+    mesh = solid.trimesh()
+    vertices, faces = welded(np.round(mesh.vertices / GRID) * GRID, mesh.faces)
+    if not len(faces):
+        return solid
+    found = m3.Manifold(m3.Mesh64(vertices, faces.astype(np.uint64)))
+    closed = found.status() == m3.Error.NoError and not found.is_empty()
+    return Solid(found) if closed else solid
+
+
+def _smallest(solid: Solid) -> float:
+    """Area of the smallest triangle as finishing rounds it, m2."""
+    mesh = solid.trimesh()
+    a, b, c = np.round(mesh.triangles, VERTEX_DECIMALS).transpose(1, 0, 2)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).min()) / 2.0
