@@ -107,6 +107,8 @@ class Evaluate:
     """Cells of marching cubes along a part, for a network's surfaces; 0 makes none."""
     samples: int = 48
     """Samples a ray, for a network's images; 0 renders none."""
+    blind: bool = False
+    """Show the network white images from one camera: what does it know without looking?"""
     pose_noise_deg: float = 0.0
     """Deviation of the turn by which poses stated to a network are off, about each axis."""
     pose_noise: float = 0.0
@@ -187,6 +189,7 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
         "train_count": command.train_count,
         "pose_noise_deg": command.pose_noise_deg,
         "pose_noise": command.pose_noise,
+        "blind": command.blind,
     }
     module = import_module("model.evaluation.network_run")
     with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):

@@ -26,6 +26,14 @@ from model.evaluation.predictions import layout_of
 EXTRA_VIEWS = 2
 EXTRA_STATES = 1
 CPU = torch.device("cpu")
+BLIND_INTRINSICS = ((60.0, 0.0, 24.0), (0.0, 60.0, 24.0), (0.0, 0.0, 1.0))
+BLIND_POSE = (
+    (1.0, 0.0, 0.0, 0.0),
+    (0.0, 0.0, -1.0, 0.0),
+    (0.0, 1.0, 0.0, 3.0),
+    (0.0, 0.0, 0.0, 1.0),
+)
+"""Before the object, three radii away."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -95,6 +103,20 @@ def _item(batch: Batch, config: DataConfig, soup: Soup | None) -> HeldOut:
 def first_images(images: Images, *, states: int, views: int) -> Images:
     """The first states and views."""
     return images.mapped(lambda tensor: tensor[:, :states, :views])
+
+
+def blinded(images: Images) -> Images:
+    """Images that show nothing: white, and all from one camera, whatever was seen."""
+    return Images(
+        rgb_BTV3HW=torch.ones_like(images.rgb_BTV3HW),
+        alpha_BTVHW=torch.zeros_like(images.alpha_BTVHW),
+        intrinsics_BTV33=images.intrinsics_BTV33.new_tensor(BLIND_INTRINSICS).expand_as(
+            images.intrinsics_BTV33
+        ),
+        camera_from_world_BTV44=images.camera_from_world_BTV44.new_tensor(BLIND_POSE).expand_as(
+            images.camera_from_world_BTV44
+        ),
+    )
 
 
 def first_states(articulation: Articulation, states: int) -> Articulation:

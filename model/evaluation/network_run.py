@@ -58,6 +58,7 @@ class NetworkRun:
         lpips: folder of its weights, or None.
         fit_steps: updates of `fit`.
         train_count: training objects of a baseline at most.
+        blind: whether a network is shown nothing.
         pose_noise_deg, pose_noise: of the poses that are stated to a network, as in `DataConfig`.
     """
 
@@ -78,6 +79,7 @@ class NetworkRun:
     train_count: int = 1000
     pose_noise_deg: float = 0.0
     pose_noise: float = 0.0
+    blind: bool = False
 
     @property
     def noisy(self) -> bool:
@@ -150,6 +152,7 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
             samples=0 if asked.noisy else asked.samples,
             gated=asked.gated,
             perceptual=None if asked.lpips is None else load_lpips(asked.lpips),
+            blind=asked.blind,
         )
         return own, shown_to(config, asked)
     if asked.predictions == "fit":

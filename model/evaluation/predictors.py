@@ -20,7 +20,7 @@ from model.config import Config
 from model.encoders.protocol import Encoder
 from model.evaluation.baselines import MeanLayout, NearestNeighbor, pixel_feature
 from model.evaluation.gates import Gates
-from model.evaluation.held_out import HeldOut, flips
+from model.evaluation.held_out import HeldOut, blinded, flips
 from model.evaluation.images import ImageScores, Perceptual, image_scores
 from model.evaluation.layout import Layout
 from model.evaluation.predictions import layout_of, with_observed_limits
@@ -101,6 +101,7 @@ class ArtPredictor:
         samples: a ray, for images; 0 renders none.
         gated: whether the object is put together and driven in MuJoCo.
         perceptual: LPIPS, where its weights are at hand.
+        blind: whether it is shown nothing, to see what it knows without.
     """
 
     art: Art
@@ -110,11 +111,13 @@ class ArtPredictor:
     samples: int
     gated: bool
     perceptual: Perceptual | None = None
+    blind: bool = False
 
     def __call__(self, item: HeldOut) -> Guess:
         """Looks at the images that are shown."""
         parts = None if self.counts else len(item.layout)
-        prediction = predict(self.art, self.config, item.shown.images, parts=parts)
+        seen = blinded(item.shown.images) if self.blind else item.shown.images
+        prediction = predict(self.art, self.config, seen, parts=parts)
         shaped = prediction.planes_BP6CHW is not None
         meshes = None
         if shaped and self.resolution:

@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from model.data.soup_source import SoupSource
-from model.evaluation.held_out import HeldOut, held_out
+from model.evaluation.held_out import HeldOut, blinded, held_out
 from tests.unit.model.data.small import CONFIG, library
 
 SHOWN = dataclasses.replace(CONFIG, states=2, views=2)
@@ -36,6 +36,18 @@ def test_surfaces_lie_in_their_boxes(item: HeldOut) -> None:
         assert mesh is not None
         # Triangles may leave the exact shape by 0.01 radii; boxes are float32.
         assert np.abs(mesh.bounds - box).max() <= 0.0101
+
+
+def test_blind_images_tell_nothing(item: HeldOut) -> None:
+    """Those of two objects are the same bits, and as many as before."""
+    seen = item.shown.images
+    first, second = blinded(seen), blinded(seen.mapped(lambda tensor: tensor + 1.0))
+    for name in ("rgb_BTV3HW", "alpha_BTVHW", "intrinsics_BTV33", "camera_from_world_BTV44"):
+        assert torch.equal(getattr(first, name), getattr(second, name)), name
+        assert getattr(first, name).shape == getattr(seen, name).shape
+    turn = first.camera_from_world_BTV44[0, 0, 0, :3, :3]
+    assert torch.equal(turn @ turn.T, torch.eye(3))
+    assert torch.linalg.det(turn) == 1.0
 
 
 def test_the_same_scene_again(item: HeldOut) -> None:
