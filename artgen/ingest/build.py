@@ -15,7 +15,7 @@ from artgen.ingest.account import Account, provenance
 from artgen.ingest.foreign import ForeignJoint, ForeignObject
 from artgen.ingest.options import Options
 from artgen.ingest.parts import cleaned, finished_parts, ordered_names
-from artgen.ingest.placing import Place, carried, placed, placed_joint
+from artgen.ingest.placing import Place, carried, placed, placed_joint, swept_poses
 from artgen.ingest.reading import ReadMeshes, read_meshes
 from artgen.ingest.reduce import bounded_slides, capped, without_still_joints
 from artgen.ingest.rest import Rest, found_rests, outline
@@ -53,7 +53,8 @@ def build(foreign: ForeignObject, options: Options, *, asset_id: str, category: 
     surfaces = surfaces_of([body for own in bodies.values() for body in own])
     names = ordered_names(bodies, labels)
     stated = {part.name: part.mass for part in foreign.parts if part.mass is not None}
-    parts = finished_parts(bodies, names, labels, surfaces, options, stated)
+    poses = swept_poses([part.name for part in foreign.parts], foreign.joints, rests, place)
+    parts = finished_parts(bodies, names, labels, surfaces, options, stated, poses)
     joints = _joints(foreign, rests, place, names, parts)
     account = Account(
         foreign=foreign,

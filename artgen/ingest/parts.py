@@ -101,11 +101,14 @@ def finished_parts(
     surfaces: Surfaces,
     options: Options,
     stated: Mapping[str, float],
+    poses: Sequence[Mapping[str, Floats]],
 ) -> tuple[Part, ...]:
     """Meshes with both UV sets, collision pieces and mass, in the order of `names`.
 
     Args:
         stated: kg of parts that the source weighs; kept where that is a mass of solids.
+        poses: part name of the source to (4, 4) motion from rest, at states in which collision
+            pieces should not meet.
 
     Raises:
         GeometryError: the atlas cannot be packed, or a part has no mass.
@@ -114,7 +117,7 @@ def finished_parts(
     atlas = atlas_uv(
         [(mesh.vertices, mesh.faces) for mesh in meshes.values()], resolution=ATLAS_RESOLUTION
     )
-    pieces = convex_pieces({name: bodies[name] for name in names}, most=options.pieces)
+    pieces = convex_pieces({name: bodies[name] for name in names}, most=options.pieces, poses=poses)
     parts = []
     for (name, mesh), uv in zip(meshes.items(), atlas, strict=True):
         own = bodies[name]

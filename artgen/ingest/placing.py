@@ -1,5 +1,7 @@
 """Placing: parts at rest, in meters, in our frame; joints about axes there, positive opening."""
 
+import dataclasses
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -13,6 +15,9 @@ from artgen.export.kinematics import vector
 from artgen.ingest.foreign import ForeignJoint, ForeignObject
 from artgen.ingest.rest import Rest, drawn_joint
 from artgen.ingest.sizes import Scale, chosen_scale
+
+SHARES = (0.25, 0.5, 1.0)
+"""Of its way that a joint is opened to see whether collision pieces stand in it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -107,6 +112,24 @@ def placed_joint(joint: ForeignJoint, rest: Rest, place: Place) -> PlacedJoint:
         limit = Limit(lower=min(lower + 0.0, 0.0), upper=upper)
     direction = sign * axis / np.linalg.norm(axis)
     return PlacedJoint(axis=vector(direction), origin=vector(origin), sign=sign, limit=limit)
+
+
+def swept_poses(
+    parts: Sequence[str], joints: Sequence[ForeignJoint], rests: Mapping[str, Rest], place: Place
+) -> list[dict[str, Floats]]:
+    """Part name to its (4, 4) motion from rest, in the object frame: each joint a quarter, half and
+    all of its way open with the others at rest, and all of them open."""
+    moved = {joint.name: placed_joint(joint, rests[joint.name], place) for joint in joints}
+    chain = [
+        dataclasses.replace(
+            drawn_joint(joint), axis=moved[joint.name].axis, origin=moved[joint.name].origin
+        )
+        for joint in joints
+    ]
+    ends = {n: math.pi if at.limit is None else at.limit.upper for n, at in moved.items()}
+    states = [{name: share * end} for name, end in ends.items() for share in SHARES]
+    base = parts[0]
+    return [forward_kinematics(base, chain, state) for state in ([*states, ends] if ends else [])]
 
 
 def carried(parts: Sequence[str], joints: Sequence[ForeignJoint]) -> dict[str, list[str]]:

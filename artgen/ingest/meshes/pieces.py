@@ -59,26 +59,35 @@ class Chunk:
 
 
 def convex_pieces(
-    parts: Mapping[str, Sequence[Body]], *, most: int
+    parts: Mapping[str, Sequence[Body]],
+    *,
+    most: int,
+    poses: Sequence[Mapping[str, Floats]] = (),
 ) -> dict[str, tuple[TriMesh, ...]]:
     """Part name to convex meshes that together cover its bodies: one a body, and up to `most` cuts
     more; those that lie within others are left out.
 
     Pieces of different parts that meet at rest are then cut on, as long as one of them is not full
-    and for as many cuts again: a hull's slack must not stand in another part's way.
+    and for as many cuts again: a hull's slack must not stand in another part's way. Then likewise
+    for those that meet at the other poses, (4, 4) a part.
     """
     walls = {name: _wall(own) for name, own in parts.items()}
     found = {name: _cut(own, walls[name], most) for name, own in parts.items()}
-    left = dict.fromkeys(parts, most)
-    for _ in range(ROUNDS):
-        if not (meeting := _meeting(found, left)):
-            break
-        for name, numbers in meeting.items():
-            kept = [chunk for k, chunk in enumerate(found[name]) if k not in numbers]
-            for number in sorted(numbers):
-                kept += list(_halves(found[name][number], walls[name]))
-            left[name] -= len(numbers)
-            found[name] = kept
+    rest = dict.fromkeys(parts, np.eye(4))
+    for group in ([rest], list(poses)):
+        left = dict.fromkeys(parts, most)
+        for _ in range(ROUNDS):
+            meeting: dict[str, set[int]] = {}
+            for pose in group:
+                _add_meeting(meeting, found, left, pose)
+            if not meeting:
+                break
+            for name, numbers in meeting.items():
+                kept = [chunk for k, chunk in enumerate(found[name]) if k not in numbers]
+                for number in sorted(numbers):
+                    kept += list(_halves(found[name][number], walls[name]))
+                left[name] -= len(numbers)
+                found[name] = kept
     return {n: tuple(_mesh(chunk) for chunk in _uncovered(own)) for n, own in found.items()}
 
 
@@ -106,26 +115,31 @@ def _cut(bodies: Sequence[Body], wall: float, most: int) -> list[Chunk]:
     return [chunk for _, _, chunk in sorted(waiting, key=lambda entry: entry[1])]
 
 
-def _meeting(found: Mapping[str, Sequence[Chunk]], left: Mapping[str, int]) -> dict[str, set[int]]:
-    """By part: chunks that share room with another part's and have slack, as many as cuts are
-    left."""
+def _add_meeting(
+    meeting: dict[str, set[int]],
+    found: Mapping[str, Sequence[Chunk]],
+    left: Mapping[str, int],
+    pose: Mapping[str, Floats],
+) -> None:
+    """Note by part: chunks that share room with another part's at a pose and have slack, as many
+    as cuts are left."""
     owners = [(name, k) for name, own in found.items() for k in range(len(own))]
-    boxes = np.array([_bounds(found[name][k].hull) for name, k in owners])
+    hulls = [found[name][k].hull.transform(pose[name][:3]) for name, k in owners]
+    boxes = np.array([_bounds(hull) for hull in hulls])
     groups = np.array([list(found).index(name) for name, _ in owners])
     depth = np.minimum(boxes[:, None, 1], boxes[None, :, 1]) - np.maximum(
         boxes[:, None, 0], boxes[None, :, 0]
     )
     near = (depth > DEEP).all(axis=2) & (groups[:, None] < groups[None, :])
-    meeting: dict[str, set[int]] = {}
     for i, j in zip(*np.nonzero(near), strict=True):
-        pair = [found[owners[i][0]][owners[i][1]], found[owners[j][0]][owners[j][1]]]
-        if (pair[0].hull ^ pair[1].hull).volume() <= DEEP**3:
+        known = all(k in meeting.get(name, ()) for name, k in (owners[i], owners[j]))
+        if known or (hulls[i] ^ hulls[j]).volume() <= DEEP**3:
             continue
-        for (name, number), chunk in zip((owners[i], owners[j]), pair, strict=True):
+        for name, number in (owners[i], owners[j]):
+            chunk = found[name][number]
             room = len(meeting.get(name, ())) < left[name]
             if room and _slack(chunk) > SLACK * chunk.hull.volume():
                 meeting.setdefault(name, set()).add(number)
-    return meeting
 
 
 def _slack(chunk: Chunk) -> float:
