@@ -146,7 +146,11 @@ def climb(
     held, kept = divided(batch, config.train.seed)
     for rung in rungs(steps):
         settings = dataclasses.replace(
-            config.train, steps=rung.steps, forced=float(rung.forced), save_every=SAVE_EVERY
+            config.train,
+            steps=rung.steps,
+            rendered=0.0,
+            forced=float(rung.forced),
+            save_every=SAVE_EVERY,
         )
         run = begun(Objective(art, rung.weights), settings, items=1, settings=plain(settings))
         resume(run, folder / rung.name)
