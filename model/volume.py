@@ -114,14 +114,14 @@ def render_along(
             growth=growth,
             stop_gradient=stop_gradient,
         )
-        source = packed(field, *articulation.valid_BP.shape)
-        cells = placed(
-            *(segments.entry_K, segments.length_K, samples),
-            generator=generator,
-            coarse=coarse,
-            inverse_beta=inverse_beta,
-            distances=lambda at_KN: source.distances(segments.points(at_KN), segments.slot_K),
-        )
+    source = packed(field, *articulation.valid_BP.shape)
+    cells = placed(
+        *(segments.entry_K, segments.length_K, samples),
+        generator=generator,
+        coarse=coarse,
+        inverse_beta=inverse_beta,
+        distances=lambda at_KN: source.distances(segments.points(at_KN), segments.slot_K),
+    )
     distance_KN, rgb_KN3 = source.seen(segments.points(cells.at_KN), segments.slot_K)
     with full_precision(origin_BR3):
         depth_KN = optical_depth(full(distance_KN), cells, inverse_beta, quadrature)
