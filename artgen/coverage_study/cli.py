@@ -72,13 +72,15 @@ def study(argv: Sequence[str]) -> int:
 
 
 def category_coverage(name: str, command: Study) -> CategoryCoverage:
-    """What one category makes, drawn now or kept from an earlier run of the same rule and builder;
-    writes its histograms when drawn."""
+    """What one category makes, with its histograms, drawn now or kept from an earlier run of the
+    same rule and builder."""
     rule = load_rule(name)
     builder = file_hash(Path(str(inspect.getsourcefile(load_builder(name).build))))
     key = content_hash([rule.digest, builder, command.seed, command.count])
     place = command.kept / f"{name}-{key[:16]}.json"
-    if place.exists():
+    picture, shown = place.with_suffix(".png"), command.out / f"coverage/{name}.png"
+    if place.exists() and picture.exists():
+        write_bytes(shown, picture.read_bytes())
         return from_json(json.loads(place.read_text(encoding="utf-8")))
     objects = drawn_objects(name, command)
     own = neighbours(objects)
@@ -87,7 +89,8 @@ def category_coverage(name: str, command: Study) -> CategoryCoverage:
         parameters=tuple(parameter_rows(rule, objects)),
         nearest=tuple(own),
     )
-    write_histograms(command.out / f"coverage/{name}.png", rule, objects, own)
+    write_histograms(picture, rule, objects, own)
+    write_bytes(shown, picture.read_bytes())
     write_json(place, plain(made))
     return made
 

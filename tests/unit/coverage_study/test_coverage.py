@@ -97,11 +97,14 @@ def test_the_study_writes_its_tables_and_pictures(tmp_path: Path) -> None:
     words += ["--kept", str(tmp_path / "kept")]
     assert study(words) == 0
     first = (tmp_path / "coverage.md").read_bytes()
-    (tmp_path / "coverage/cabinet.png").rename(tmp_path / "moved.png")
-    assert study(words) == 0  # Nothing is drawn again.
+    (kept,) = (tmp_path / "kept").glob("*.json")
+    drawn_at = kept.stat().st_mtime_ns
+    picture = (tmp_path / "coverage/cabinet.png").read_bytes()
+    (tmp_path / "coverage/cabinet.png").unlink()
+    assert study(words) == 0
+    assert kept.stat().st_mtime_ns == drawn_at  # Nothing is drawn again.
     assert (tmp_path / "coverage.md").read_bytes() == first
-    assert not (tmp_path / "coverage/cabinet.png").exists()
-    (tmp_path / "moved.png").rename(tmp_path / "coverage/cabinet.png")
+    assert (tmp_path / "coverage/cabinet.png").read_bytes() == picture
     (row,) = read_table(tmp_path / "coverage.csv", Coverage)
     assert (row.category, row.objects, row.twins) == ("cabinet", 3, 0)
     parameters = read_table(tmp_path / "coverage_parameters.csv", ParameterRow)
