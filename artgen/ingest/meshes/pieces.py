@@ -217,11 +217,12 @@ def best_cut(corners: Floats, wall: float, *, solid: bool) -> tuple[int, float]:
     its sides; where that saves nothing, the one that takes off the largest wall, as walls have to
     be taken off a hollow one by one; where there is none, the middle of the longest side.
 
-    A wall of a solid has two sides, and the cut is its third.
+    A wall is not longest across the cut that takes it off. One of a solid has two sides. Boxes of
+    open surfaces are padded, as some have no volume.
     """
     thick, offsets = (2.0 * wall, (0.0,)) if solid else (wall, (-wall / 4.0, wall / 4.0))
     lower, upper = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-    pad = wall / 4.0
+    pad = 0.0 if solid else wall / 4.0
     best, found = GAIN * float(np.prod(upper - lower + pad)), None
     largest, peeled = PEEL * _area(corners), None
     for axis in range(3):
@@ -236,7 +237,7 @@ def best_cut(corners: Floats, wall: float, *, solid: bool) -> tuple[int, float]:
                 area = _area(side)
                 face = float(np.prod(np.sort(span)[1:]))
                 full = area >= FULL * face and np.prod(span) <= area / 2.0 * thick
-                if area > largest and full:
+                if area > largest and full and int(np.argmax(span)) != axis:
                     largest, peeled = area, (axis, float(place))
     axis = int(np.argmax(upper - lower))
     return found or peeled or (axis, float((lower[axis] + upper[axis]) / 2.0))
