@@ -9,6 +9,7 @@ two moving parts wait for each other (a drawer behind a door), or the joint's wa
 import numpy as np
 from numpy.typing import NDArray
 
+from artgen.articulation.states import travel
 from artgen.core.mesh import Floats
 from artgen.geometry.clearance import Mover, inverted_poses, overlaps, shape_of_solids
 from artgen.geometry.solid import Solid, union
@@ -179,7 +180,7 @@ def _waiting(scene: Scene, cutter: Cutter, sweep: Sweep, pair: tuple[str, str]) 
     other = scene.joint_of(met)
     if any(rule.joint == other.name and rule.requires == sweep.joint for rule in scene.rules):
         return None
-    upper = 0.0 if other.limit is None else other.limit.upper
+    upper = travel(other)[1]
     for share in SHARES:
         least = share * upper
         held = ({other.name: least}, {other.name: upper})

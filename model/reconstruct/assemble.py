@@ -35,7 +35,7 @@ from artgen.textures.images import Image, TextureSet
 from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways, made_sound
 from model.reconstruct.contact import contact_pieces
 from model.reconstruct.guess import ObjectGuess
-from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
+from model.reconstruct.joints import CleanJoint, clean_joint, parents_first, within_rails
 from model.reconstruct.physics import DENSITY, LEAST, forces, weights
 from model.reconstruct.scene import Scene
 from model.reconstruct.shapes import shape_of
@@ -114,6 +114,7 @@ def assemble(
         raise ModelError("the prediction has no base in slot 0; nothing can hang on it")
     joints = parents_first([clean_joint(joint) for joint in guess.joints])
     solids, told = _solids(guess, {joint.guess.slot for joint in joints})
+    joints = [within_rails(joint, solids[joint.guess.slot].extent) for joint in joints]
     names = _names(solids)
     for joint in joints:
         told += [f"{names[joint.guess.slot]}: {change}" for change in joint.changes]
@@ -176,12 +177,12 @@ def _stated(joint: CleanJoint, names: Mapping[int, str]) -> Joint:
     return canonical_pivot(
         Joint(
             name=f"{name}_joint",
-            type=joint.guess.type,
+            type="continuous" if joint.endless else joint.guess.type,
             parent=names[joint.guess.parent],
             child=name,
             axis=_vector(joint.axis),
             origin=_vector(joint.origin),
-            limit=Limit(lower=joint.lower, upper=joint.upper),
+            limit=None if joint.endless else Limit(lower=joint.lower, upper=joint.upper),
             friction=0.0,
             damping=0.0,
             effort=LEAST,

@@ -4,6 +4,7 @@ things where they nearly are, rest at one end or in the middle, positive motion 
 Every change is told, so that a report can say what was seen and what was made of it.
 """
 
+import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,6 +21,8 @@ TWO_WAYS = 0.35
 """Share of its range that a joint goes backward at least, if it rests in the middle."""
 LEAST_TURN = 0.1
 """rad; twice the least that validators take for a joint."""
+ENDLESS = 0.97
+"""Share of a full turn beyond which a joint has no ends: wheels, dials, turntables."""
 LEAST_SLIDE = 0.004
 """m; the way of a button."""
 
@@ -40,6 +43,12 @@ class CleanJoint:
     upper: float
     observed: Floats
     changes: tuple[str, ...]
+
+    @property
+    def endless(self) -> bool:
+        """Whether it turns all around, so that it is stated as continuous."""
+        turn = 2.0 * math.pi
+        return self.guess.type == "revolute" and self.upper - self.lower >= ENDLESS * turn
 
 
 def clean_joint(guess: JointGuess) -> CleanJoint:
@@ -103,6 +112,20 @@ def rested(
     return 0.0, upper
 
 
+def within_rails(joint: CleanJoint, extent: Floats) -> CleanJoint:
+    """A slide that goes no further than its part is long, (3,) `extent` m; else it leaves its
+    rails."""
+    length = float(np.abs(joint.axis) @ extent)
+    if joint.guess.type != "prismatic" or joint.upper - joint.lower <= length:
+        return joint
+    share = length / (joint.upper - joint.lower)
+    told = f"its way of {joint.upper:.3g} m was cut to {share * joint.upper:.3g}, as long as it is"
+    lower, upper = share * joint.lower + 0.0, share * joint.upper
+    observed = joint.observed.clip(lower, upper)
+    changes = (*joint.changes, told)
+    return dataclasses.replace(joint, lower=lower, upper=upper, observed=observed, changes=changes)
+
+
 def parents_first(joints: Sequence[CleanJoint]) -> list[CleanJoint]:
     """Joints in an order in which parents come before children; a circle is broken at the base."""
     placed, ordered, waiting = {0}, [], list(joints)
@@ -116,6 +139,6 @@ def parents_first(joints: Sequence[CleanJoint]) -> list[CleanJoint]:
 
 
 def _rebased(joint: CleanJoint) -> CleanJoint:
-    guess = JointGuess(**{**vars(joint.guess), "parent": 0})
+    guess = dataclasses.replace(joint.guess, parent=0)
     changes = (*joint.changes, "its parent moved with it in a circle; it hangs on the base")
-    return CleanJoint(**{**vars(joint), "guess": guess, "changes": changes})
+    return dataclasses.replace(joint, guess=guess, changes=changes)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from artgen.articulation.states import travel
 from artgen.articulation.types import Joint
 from artgen.core.conventions import GRAVITY
 from artgen.core.mesh import Floats
@@ -60,8 +61,7 @@ def weights(solids: Mapping[str, Solid], density: float) -> dict[str, Weight]:
 def forces(joint: Joint, joints: Sequence[Joint], heavy: Mapping[str, Weight], base: str) -> Forces:
     """What one joint takes to be held and to be moved; all that it carries counts."""
     carried = _carried(joint, joints)
-    lower, upper = (0.0, 0.0) if joint.limit is None else (joint.limit.lower, joint.limit.upper)
-    path = np.linspace(lower, upper, 21)
+    path = np.linspace(*travel(joint), 21)
     sweep = Sweep(joint=joint.name, states=tuple({joint.name: q} for q in path.tolist()))
     poses = sweep_poses(base, joints, sweep)
     pull, weight, reach = np.zeros(len(path)), 0.0, 0.0

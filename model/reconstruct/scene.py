@@ -95,7 +95,8 @@ class Scene:
         if not upper > 0.0:
             return self.told(f"{joint.name} cannot leave rest for {what}; its way was left as is")
         limit = Limit(lower=float(lower) + 0.0, upper=float(upper))
-        ended = dataclasses.replace(joint, limit=limit)
+        kind = "revolute" if joint.type == "continuous" else joint.type
+        ended = dataclasses.replace(joint, type=kind, limit=limit)
         joints = tuple(ended if own.name == joint.name else own for own in self.joints)
         scene = dataclasses.replace(self, joints=joints)
         return scene.told(f"{joint.name} ends at {upper:.3g}, where it meets {what}")
