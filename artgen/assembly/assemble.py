@@ -14,12 +14,12 @@ from artgen.assembly.fill import Fill, Misfit, filled, gripped, handle_on, middl
 from artgen.assembly.library import Entry
 from artgen.assembly.licence import Licence, most_restrictive
 from artgen.assembly.looks import (
+    BODY_RECIPES,
     Looks,
     body_surface,
     drawn_looks,
     front_surface,
     handle_surface,
-    stuff_of,
 )
 from artgen.assembly.piece import Piece, joined, picked, weighed
 from artgen.assembly.placing import Named, placed
@@ -326,7 +326,7 @@ def _with_grips(piece: Piece, member: Member) -> Piece:
 
 
 def main_surfaces(source: Source) -> tuple[str, ...]:
-    """Names of the woods and paints that make up a base."""
+    """Names of the woods, paints and pictures that make up a base."""
     mesh = source.base.mesh
     covered = np.bincount(
         np.asarray(mesh.slot), weights=areas(mesh.triangles), minlength=len(source.surfaces)
@@ -334,7 +334,7 @@ def main_surfaces(source: Source) -> tuple[str, ...]:
     return tuple(
         surface.name
         for surface, area in zip(source.surfaces, covered, strict=True)
-        if stuff_of(surface) in ("wood", "paint") and area >= MAIN * covered.sum()
+        if surface.recipe in BODY_RECIPES and area >= MAIN * covered.sum()
     )
 
 

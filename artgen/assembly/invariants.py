@@ -22,6 +22,7 @@ from artgen.assembly.source import Member, Source
 from artgen.assembly.texels import STRETCH, density, stretch, weighted_quantile
 from artgen.assembly.uv_fix import areas
 from artgen.core.mesh import Floats
+from artgen.core.surface import SurfaceSpec
 from artgen.core.transform import apply
 from artgen.dataset.split import split_of
 from artgen.geometry.clearance import shape_of_mesh
@@ -243,7 +244,7 @@ def textured(case: Case) -> Iterator[Broken]:
             value, bound = f"{spread:.3f}", f"variation of density <= {UNEVEN}"
             yield Broken(number=10, part=surface, value=value, bound=bound)
     medians = density_by_part(case.new)
-    middle = float(np.median(list(medians.values())))
+    middle = float(np.median(list(medians.values()) or [1.0]))
     for name, median in medians.items():
         if not RATIO[0] <= median / middle <= RATIO[1]:
             value, bound = f"{median / middle:.3f}", f"density {RATIO[0]} to {RATIO[1]} of others"
@@ -308,16 +309,22 @@ def _broken(number: int, member: Member, value: float | str, bound: str) -> Brok
 
 
 def density_by_surface(new: Assembled) -> dict[str, float]:
-    """Surface name to the coefficient of variation of texel density over its area; prints, which
-    fill the face they are made for, are left out."""
+    """Surface name to the coefficient of variation of texel density over its area; surfaces
+    without images, prints, which fill the face they are made for, and pictures from elsewhere are
+    left out."""
     found: dict[str, list[tuple[Floats, Floats]]] = {}
     for _, _, piece in new.parts:
         dense, weight = density(piece.mesh), areas(piece.mesh.triangles)
         for slot in piece.slots:
             own = np.asarray(piece.mesh.slot) == slot
-            if stuff_of(new.surfaces[slot]) != "print":
+            if _tiles(new.surfaces[slot]):
                 found.setdefault(new.surfaces[slot].name, []).append((dense[own], weight[own]))
     return {name: _variation(pairs) for name, pairs in found.items()}
+
+
+def _tiles(surface: SurfaceSpec) -> bool:
+    """Whether a surface has images that are to be as dense everywhere."""
+    return stuff_of(surface) != "print" and surface.recipe not in ("plain", "picture")
 
 
 def _variation(pairs: list[tuple[Floats, Floats]]) -> float:
@@ -327,11 +334,15 @@ def _variation(pairs: list[tuple[Floats, Floats]]) -> float:
 
 
 def density_by_part(new: Assembled) -> dict[str, float]:
-    """Name of a part to the median by area of density on it."""
-    return {
-        name: weighted_quantile(density(piece.mesh), areas(piece.mesh.triangles), 0.5)
-        for name, _, piece in new.parts
-    }
+    """Name of a part to the median by area of density on it, over the same surfaces."""
+    tiling = [slot for slot, surface in enumerate(new.surfaces) if _tiles(surface)]
+    medians = {}
+    for name, _, piece in new.parts:
+        own = np.isin(np.asarray(piece.mesh.slot), tiling)
+        if own.any():
+            weights = areas(piece.mesh.triangles)[own]
+            medians[name] = weighted_quantile(density(piece.mesh)[own], weights, 0.5)
+    return medians
 
 
 Check = Callable[[Case], Iterator[Broken]]

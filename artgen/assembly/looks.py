@@ -26,8 +26,11 @@ BODY_LIKE_FRONTS = 0.4
 """Chance that a body has the wood or paint of its fronts."""
 WOODEN = 0.7
 """Chance of wood, for fronts and for bodies alike."""
-PANEL_RECIPES = frozenset({"wood", "paint", "enamel", "plain", "plastic", "brushed"})
-"""Recipes whose front panels are given a new look; others are part of what a panel is."""
+PANEL_RECIPES = frozenset({"wood", "paint", "enamel", "plain", "plastic", "brushed", "picture"})
+"""Recipes whose front panels are given a new look; others are part of what a panel is. Pictures are
+what foreign objects are covered with."""
+BODY_RECIPES = frozenset({"wood", "paint", "picture"})
+"""The same for what bodies of furniture are mainly made of."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,4 +90,5 @@ def body_surface(surface: SurfaceSpec, main: Sequence[str], looks: Looks) -> Sur
 
 def handle_surface(surface: SurfaceSpec, looks: Looks) -> SurfaceSpec:
     """What a surface of a handle becomes: any metal, lacquered or not, the object's metal."""
-    return looks.metal if stuff_of(surface) in ("metal", "paint") else surface
+    lacquered = stuff_of(surface) in ("metal", "paint") or surface.recipe == "picture"
+    return looks.metal if lacquered else surface

@@ -141,7 +141,7 @@ def _row(index: int, new: Assembled, library: Library, spent: float) -> Row:
         sources={id: library.source(id) for id in ids},
     )
     faults = broken(case)
-    medians = np.array(list(density_by_part(new).values()))
+    medians = np.array(list(density_by_part(new).values()) or [1.0])
     hashes = new.hashes
     bodies = [entry for entry in new.sources if entry["piece"] != "handle"]
     return Row(
