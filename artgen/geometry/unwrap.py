@@ -23,8 +23,6 @@ SIDE_AXES = np.array([[1, 2], [2, 0], [0, 1]])
 SMALLEST = 1e-4
 """m; thinner charts are packed as if they were this wide, so that none is lost."""
 MILLIMETRES = 1e3
-FLAT = 4
-"""Faces that a chart has at most without being looked at: so few do not wind over themselves."""
 FOLD = 1e-3
 """Share of a chart's area that may lie double: rounding along its edges."""
 
@@ -137,7 +135,7 @@ def _unfolded(part: tuple[Floats, Ints], uv: Floats, chart: NDArray[np.int64]) -
     middles = corners.mean(axis=1)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     apart = np.zeros(len(chart), np.int64)
-    waiting = [own for own in np.split(order, cuts) if len(own) > FLAT and _folded(uv[own])]
+    waiting = [own for own in np.split(order, cuts) if len(own) > 1 and _folded(uv[own])]
     count = int(chart.max()) + 1
     while waiting:
         own = waiting.pop()

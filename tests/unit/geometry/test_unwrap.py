@@ -7,6 +7,7 @@ from numpy.testing import assert_allclose
 from artgen.core.mesh import Floats
 from artgen.geometry.solid import Solid, box, chamfered_box, cylinder, union, wire
 from artgen.geometry.unwrap import atlas_uv, flat_uv, metric_uv, texel_density
+from tests.texels import shared_area
 
 GRID = 512
 
@@ -107,3 +108,14 @@ def test_a_helix_does_not_lie_over_itself_on_the_atlas() -> None:
     union = m3.CrossSection(list(atlas), m3.FillRule.NonZero).area()
     assert area.sum() > 0.05
     assert union > (1.0 - 2e-3) * area.sum()
+
+
+def test_two_faces_that_meet_in_a_corner_do_not_lie_over_each_other() -> None:
+    """Both face up, so they would be one chart, and the upper one would cover the lower one."""
+    vertices = np.array(
+        [(0.0, 0.0, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.0), (0.1, 0.0, 0.02), (0.0, 0.1, 0.02)]
+    )
+    faces = np.array([(0, 1, 2), (0, 3, 4)], np.int32)
+    (atlas,) = atlas_uv([(vertices, faces)], resolution=256)
+    # Corners are rounded to 1e-6 of the atlas, whose edges are 1 long.
+    assert shared_area(atlas) < 1e-5
