@@ -64,7 +64,7 @@ gallery: install ## rewrite the pictures in docs/
 	$(BIN)/artgen generate --seed 2026 --size 192 --views 1 --states 2 --out out/gallery
 	mkdir -p docs/images && cp out/gallery/contact_sheet.png docs/images/contact_sheet.png
 	$(BIN)/artgen sheet $(notdir $(basename $(filter-out category_rules/_%,$(wildcard category_rules/*.toml)))) \
-	  --count 24 --seed 2026 --out docs/images/categories --work out/sheets
+	  --count 24 --seed 20261121 --size 160 --paths 8 --out docs/images/categories --work out/sheets
 
 bench: install-test ## measure the figures in docs/benchmarks.md
 	$(BIN)/python -m tests.bench.figures
