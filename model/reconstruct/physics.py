@@ -14,7 +14,7 @@ from artgen.articulation.types import Joint
 from artgen.core.conventions import GRAVITY
 from artgen.core.mesh import Floats
 from artgen.core.transform import apply
-from artgen.geometry.measure import moments
+from artgen.geometry.measure import inertia, moments
 from artgen.geometry.solid import Solid
 from artgen.validate.sweep import Sweep, sweep_poses
 
@@ -28,6 +28,9 @@ EFFORT = 6.0
 """Effort as a multiple of friction."""
 DAMPING = 0.3
 """Damping per friction, s/m or s/rad."""
+QUICKEST = 300.0
+"""1/s; damping over inertia. A dial of 5 g that is damped thirty times as much is not held by the
+stops of MuJoCo, whose softness knows nothing of dampers."""
 LEAST = 0.02
 """N or N m."""
 
@@ -43,10 +46,11 @@ class Forces:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Weight:
-    """Mass in kg and its center at rest, m."""
+    """Mass in kg, its center at rest, m, and its inertia about that, (3, 3) kg m2."""
 
     mass: float
     center: Floats
+    inertia: Floats
 
 
 def weights(solids: Mapping[str, Solid], density: float) -> dict[str, Weight]:
@@ -54,7 +58,11 @@ def weights(solids: Mapping[str, Solid], density: float) -> dict[str, Weight]:
     found = {}
     for name, solid in solids.items():
         integral = moments(solid.trimesh().triangles)
-        found[name] = Weight(mass=density * integral.volume, center=integral.center)
+        found[name] = Weight(
+            mass=density * integral.volume,
+            center=integral.center,
+            inertia=density * inertia(integral.second),
+        )
     return found
 
 
@@ -64,21 +72,25 @@ def forces(joint: Joint, joints: Sequence[Joint], heavy: Mapping[str, Weight], b
     path = np.linspace(*travel(joint), 21)
     sweep = Sweep(joint=joint.name, states=tuple({joint.name: q} for q in path.tolist()))
     poses = sweep_poses(base, joints, sweep)
-    pull, weight, reach = np.zeros(len(path)), 0.0, 0.0
+    axis = np.array(joint.axis)
+    pull, weight, reach, lazy = np.zeros(len(path)), 0.0, 0.0, 0.0
     for name in carried:
         force = GRAVITY * heavy[name].mass
         centers = np.array([apply(pose, heavy[name].center) for pose in poses[name]])
         arms = centers - np.array(joint.origin)
         if joint.type == "prismatic":
             pull += -force * joint.axis[2]
+            lazy += heavy[name].mass
         else:
             pull += force * (joint.axis[1] * arms[:, 0] - joint.axis[0] * arms[:, 1])
-            across = arms[0] - (arms[0] @ joint.axis) * np.array(joint.axis)
-            reach = max(reach, float(np.linalg.norm(across)))
+            across = float(np.linalg.norm(arms[0] - (arms[0] @ axis) * axis))
+            reach = max(reach, across)
+            lazy += float(axis @ heavy[name].inertia @ axis) + heavy[name].mass * across**2
         weight += force
     rub = RUB * weight * (reach if joint.type != "prismatic" else 1.0)
     friction = max(HOLD * float(np.abs(pull).max()), rub, LEAST)
-    return Forces(friction=friction, damping=DAMPING * friction, effort=EFFORT * friction)
+    damping = min(DAMPING * friction, QUICKEST * lazy)
+    return Forces(friction=friction, damping=damping, effort=EFFORT * friction)
 
 
 def _carried(joint: Joint, joints: Sequence[Joint]) -> list[str]:

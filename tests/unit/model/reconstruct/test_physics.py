@@ -8,7 +8,7 @@ import pytest
 from artgen.articulation.types import Joint, Limit
 from artgen.core.conventions import GRAVITY
 from artgen.geometry.solid import slab
-from model.reconstruct.physics import EFFORT, HOLD, LEAST, RUB, forces, weights
+from model.reconstruct.physics import EFFORT, HOLD, LEAST, QUICKEST, RUB, forces, weights
 
 LID = slab((-0.2, -0.3, 0.3), (0.2, 0.0, 0.32))
 DENSITY = 300.0
@@ -58,6 +58,16 @@ def test_a_slide_carries_its_weight_if_it_rises(
     joint = Joint(**{**vars(hinge(axis, 0.2)), "type": "prismatic", "origin": (0.0, 0.0, 0.0)})
     found = forces(joint, [joint], HEAVY, "base")
     assert math.isclose(found.friction, share * MASS * GRAVITY, rel_tol=1e-12)
+
+
+def test_a_light_dial_is_damped_no_more_than_its_inertia_bears() -> None:
+    """A cube of 24 mm about its own middle: m a2 / 6."""
+    heavy = weights({"base": LID, "lid": slab((0.0, 0.0, 0.0), (0.024, 0.024, 0.024))}, DENSITY)
+    joint = Joint(**{**vars(hinge((0.0, 1.0, 0.0), 4.0)), "origin": (0.012, 0.0, 0.012)})
+    inertia = DENSITY * 0.024**3 * 0.024**2 / 6.0
+    assert math.isclose(
+        forces(joint, [joint], heavy, "base").damping, QUICKEST * inertia, rel_tol=1e-9
+    )
 
 
 def test_what_a_part_carries_counts() -> None:
