@@ -32,7 +32,7 @@ class Reconstruct:
 
     For example:
 
-    artgen reconstruct examples/cabinet --cameras examples/cabinet/cameras.json --parts 3
+    artgen reconstruct examples/cabinet --cameras examples/cabinet/cameras.json --parts 4
 
     artgen reconstruct photos --masks masks --checkpoint art.safetensors
     """
