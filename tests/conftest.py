@@ -1,10 +1,13 @@
-"""One Blender process for all tests of a session, and how hypothesis draws.
+"""One Blender process for all tests of a session, one thread a process, and how hypothesis draws.
 
-`HYPOTHESIS_PROFILE=explore` draws anew at every run and ten times as much; CI draws the same.
+Tests run side by side, one process a core; small tensors over more threads than cores cost ten
+times the time. `HYPOTHESIS_PROFILE=explore` draws anew at every run and ten times as much; CI draws the same.
 """
 
 import os
 from collections.abc import Iterator
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # Read once, when numpy and torch are imported.
 
 import pytest
 from hypothesis import settings

@@ -66,7 +66,7 @@ def box_field(articulation: Articulation) -> BoxField:
 
 def camera(eye: tuple[float, float, float], dtype: torch.dtype = torch.float32) -> Tensor:
     """(4, 4) `camera_from_world` of an upright camera that looks at the middle."""
-    matrix: np.ndarray = inverted(look_at(eye, (0.0, 0.0, 0.0)))
+    matrix: Floats = inverted(look_at(eye, (0.0, 0.0, 0.0)))
     return torch.tensor(matrix, dtype=dtype)
 
 
