@@ -1,7 +1,8 @@
 """One Blender process for all tests of a session, one thread a process, and how hypothesis draws.
 
 Tests run side by side, one process a core; small tensors over more threads than cores cost ten
-times the time. `HYPOTHESIS_PROFILE=explore` draws anew at every run and ten times as much; CI draws the same.
+times the time. `HYPOTHESIS_PROFILE=explore` draws anew at every run and ten times as much; CI draws
+the same.
 """
 
 import os

@@ -40,9 +40,7 @@ def power_base(
         for a in (math.pi * (0.25 + 0.5 * k) for k in range(4))
     ]
     feet = [cylinder(0.008, foot + 0.001, segments=16).at(x, y) for x, y in places]
-    soles = [
-        slab((x - 0.0055, y - 0.0055, 0.0), (x + 0.0055, y + 0.0055, foot)) for x, y in places
-    ]
+    soles = [slab((x - 0.0055, y - 0.0055, 0.0), (x + 0.0055, y + 0.0055, foot)) for x, y in places]
     disc = revolve(outline, segments=56)
     contact = (*round_boxes(radius, foot, top), *round_boxes(0.0195, top, top + 0.008)[2:])
     return (

@@ -5,10 +5,10 @@ The drawer carries a knob as a part of its own, so that one chain has two joints
 
 import dataclasses
 
-import numpy as np
 import torch
 from torch import Tensor
 
+from artgen.core.mesh import Floats
 from artgen.core.transform import inverted, look_at
 from model.analytic import BoxField
 from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation
