@@ -1,5 +1,6 @@
 """The `artgen` command: finds its sub-commands by entry point and turns errors into exit codes."""
 
+import ast
 import errno
 import logging
 import os
@@ -7,14 +8,19 @@ import select
 import sys
 from collections.abc import Callable, Sequence
 from importlib.metadata import EntryPoint, entry_points
+from importlib.util import find_spec
+from pathlib import Path
 
 from artgen import __version__
-from artgen.core.errors import ArtgenError
+from artgen.core.errors import ArtgenError, UsageError
 
 Command = Callable[[Sequence[str]], int]
 
 FULL_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 DENIED = (errno.EACCES, errno.EPERM, errno.EROFS)
+
+EXTRA_OF = {"torch": "model", "safetensors": "model", "skimage": "model", "tensorboard": "model"}
+"""What to install where a module is missing that only some commands need."""
 
 INTRODUCTION = """\
 artgen {version}: procedural articulated 3D objects, from category rules to training shards.
@@ -28,6 +34,9 @@ Start here:
   artgen generate --categories safe --count 5 --set safe.lock=dial --out safes
   artgen sheet laptop --count 8                        what a category looks like
   artgen inspect out/assets/laptop/000000              what is in a bundle
+  artgen ingest partnet ~/partnet-mobility             other people's objects as such bundles
+  artgen assemble storage_furniture --count 20         new furniture of old parts
+  artgen train debug                                   the reconstruction network, in a minute
 
 Commands:
 {commands}
@@ -43,18 +52,41 @@ def found_commands() -> dict[str, EntryPoint]:
 
 
 def run_command(name: str, argv: Sequence[str]) -> int:
-    """Run one sub-command in this process; its exit code."""
-    command: Command = found_commands()[name].load()
-    return command(argv)
+    """Run one sub-command in this process; its exit code.
+
+    Raises:
+        UsageError: it needs packages of an extra that is not installed.
+    """
+    try:
+        command: Command = found_commands()[name].load()
+        return command(argv)
+    except ModuleNotFoundError as error:
+        module = (error.name or "").partition(".")[0]
+        if module not in EXTRA_OF:
+            raise
+        raise UsageError(
+            f"artgen {name} needs {module}, which is not installed: "
+            f"pip install 'artgen[{EXTRA_OF[module]}]'"
+        ) from error
 
 
 def introduction() -> str:
     """The text of `artgen --help`."""
     lines = []
     for name, entry in sorted(found_commands().items()):
-        first_line = (entry.load().__doc__ or "").strip().splitlines()[0]
-        lines.append(f"  {name:<12} {first_line}")
+        lines.append(f"  {name:<12} {_first_line(entry)}")
     return INTRODUCTION.format(version=__version__, commands="\n".join(lines))
+
+
+def _first_line(entry: EntryPoint) -> str:
+    """Of a command's docstring, read from its source: loading all commands would load torch."""
+    spec = find_spec(entry.module)
+    if spec is None or spec.origin is None:
+        return "(cannot be found; install artgen anew)"
+    for node in ast.parse(Path(spec.origin).read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef) and node.name == entry.attr:
+            return (ast.get_docstring(node) or "").partition("\n")[0]
+    return "(cannot be found; install artgen anew)"
 
 
 def main(argv: Sequence[str] | None = None) -> int:

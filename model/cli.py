@@ -81,11 +81,10 @@ def train(argv: Sequence[str]) -> int:
 
 
 def _train(command: Train, config: Config) -> None:
-    try:
-        from model.material import Material
-        from model.session import run_session  # Torch takes seconds to import.
-    except ModuleNotFoundError as error:
-        raise _missing("train", error) from error
+    # Torch takes seconds to import: --help and wrong settings are told without it.
+    from model.material import Material
+    from model.session import run_session
+
     material = Material(
         categories=command.categories,
         objects=command.objects,
@@ -130,20 +129,12 @@ def ship(argv: Sequence[str]) -> int:
     command = tyro.cli(Ship, args=argv, prog="artgen ship")
     if command.out is not None and command.out.exists():
         raise UsageError(f"{command.out}: exists; name another --out")
-    try:
-        from model.art_file import carded, load_art, save_art, stored_type
-        from model.run_state import trained_state
-    except ModuleNotFoundError as error:
-        raise _missing("ship", error) from error
+    from model.art_file import carded, load_art, save_art, stored_type
+    from model.run_state import trained_state
+
     art, config, found = load_art(command.network)
     card = carded(found, metrics=command.metrics, limits=command.limits)
     Console().print_json(canonical_json(card))
     if command.out is not None:
         save_art(command.out, art, config, card, stored=stored_type(trained_state(art)))
     return 0
-
-
-def _missing(command: str, error: ModuleNotFoundError) -> UsageError:
-    return UsageError(
-        f"artgen {command} needs {error.name}, which is not installed: pip install 'artgen[model]'"
-    )

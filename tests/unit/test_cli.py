@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from functools import partial
+from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
@@ -28,9 +29,29 @@ def run(*words: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str
 def test_help_teaches_every_command() -> None:
     told = run("--help")
     assert told.returncode == 0
-    for name in ("generate", "validate", "render", "shard", "inspect", "categories", "doctor"):
+    for name in cli.found_commands():
         assert f"\n  {name} " in told.stdout
+    assert "cannot be found" not in told.stdout
     assert "Exit codes: 0 done" in told.stdout
+
+
+def test_a_command_without_its_extra_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Help of all commands needs none of their packages."""
+    source = 'import torch_that_is_not_there\n\ndef grow(argv):\n    """Grow trees."""\n'
+    (tmp_path / "orchard.py").write_text(source)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    entry = EntryPoint(name="grow", value="orchard:grow", group="artgen.commands")
+    monkeypatch.setattr(cli, "found_commands", lambda: {"grow": entry})
+    monkeypatch.setitem(cli.EXTRA_OF, "torch_that_is_not_there", "model")
+    assert cli.main(["--help"]) == 0
+    assert "  grow         Grow trees." in capsys.readouterr().out
+    assert cli.main(["grow"]) == 2
+    assert capsys.readouterr().err == (
+        "artgen: artgen grow needs torch_that_is_not_there, which is not installed: "
+        "pip install 'artgen[model]'\n"
+    )
 
 
 @pytest.mark.parametrize(
