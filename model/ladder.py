@@ -116,7 +116,6 @@ def write_ladder(
     specimen: Specimen, config: Config, *, steps: int, rays: int, folder: Path, show: Show = silent
 ) -> Iterator[Climbed]:
     """Climb with an object; leaves ladder.csv and ladder.png in the folder, too."""
-    torch.set_flush_denormal(True)
     soup = seed_soup(specimen.category, specimen.seed, specimen.index)
     batch = next(batches(SoupSource(packed([soup])), config.data))
     rows, pictures = [], []

@@ -53,18 +53,21 @@ def ladder(argv: Sequence[str]) -> int:
     command = tyro.cli(Ladder, args=list(argv), prog="artgen study ladder")
     if min(command.steps, command.rays) < 1:
         raise UsageError(f"--steps {command.steps} and --rays {command.rays} must be at least 1")
-    from model.ladder import Specimen, write_ladder  # Torch takes seconds to import.
+    # Torch takes seconds to import.
+    from model.ladder import Specimen, write_ladder
+    from model.precision import flushed_denormals
 
     specimen = Specimen(category=command.category, seed=command.seed, index=command.index)
-    for row in write_ladder(
-        specimen,
-        _config(command),
-        steps=command.steps,
-        rays=command.rays,
-        folder=command.out,
-        show=progress,
-    ):
-        print(row)  # noqa: T201
+    with flushed_denormals():
+        for row in write_ladder(
+            specimen,
+            _config(command),
+            steps=command.steps,
+            rays=command.rays,
+            folder=command.out,
+            show=progress,
+        ):
+            print(row)  # noqa: T201
     return 0
 
 

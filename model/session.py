@@ -27,6 +27,7 @@ from model.material import Material, make_missing, opened
 from model.objective import Objective
 from model.perceptual import packaged_distance
 from model.picture import picture_of
+from model.precision import flushed_denormals
 from model.run_state import Run, begun, differences, resume, trained_state
 from model.schedule import Moment
 from model.train import Draw, Supply, train
@@ -59,8 +60,7 @@ def run_session(
         UsageError: the folder holds a run of other settings, or is in use.
         ModelError: data, weights or the training itself failed.
     """
-    torch.set_flush_denormal(True)  # Tails of densities would slow a CPU down several times.
-    with joined(environment, device=device, plan=plan) as team:
+    with flushed_denormals(), joined(environment, device=device, plan=plan) as team:
         if team.leads:
             folder.mkdir(parents=True, exist_ok=True)
         with locked(folder) if team.leads else nullcontext():

@@ -87,9 +87,9 @@ class NetworkRun:
         return max(self.pose_noise_deg, self.pose_noise) > 0.0
 
 
+@torch.no_grad()
 def run(asked: NetworkRun, protocol: Protocol, folder: Path) -> list[Record]:
     """A record for every held-out object; those that are kept in `folder` are not made again."""
-    torch.set_grad_enabled(False)
     predictor, config = made_predictor(asked)
     source = opened(asked.truth, asked.split, config.slots)
     key = run_key(asked, protocol)

@@ -115,6 +115,17 @@ def asset_name(images: Path) -> str:
     return f"reconstruction_{word}" if word else "reconstruction"
 
 
+@dataclass(frozen=True, kw_only=True)
+class Made:
+    """An object and what it was made of."""
+
+    capture: Capture
+    sphere: Sphere
+    config: Config
+    prediction: Prediction
+    assembled: Assembled
+
+
 def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
     """Fill `order.out`.
 
@@ -127,6 +138,40 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
             f"{order.out}: exists, and nothing is overwritten; choose another --out or remove it"
         )
     watch = Stopwatch(advance)
+    made = made_object(order, watch)
+    report: list[Report] = []
+    ious: list[float] = []
+
+    def fill(folder: Path) -> None:
+        painter = Painter(made.assembled.object, made.assembled.color)
+        seen = reprojections(made.capture, made.sphere, made.assembled, size=films.SIDE)
+        ious.extend(own.iou for own in seen)
+        if order.films:
+            write_films(folder, made.assembled, painter, seen)
+        watch.lap("films")
+        told = record(
+            made.prediction,
+            made.sphere,
+            made.assembled,
+            seen,
+            states=made.capture.states,
+            checkpoint=told_checkpoint(order.checkpoint, made.config),
+        )
+        write_json(folder / PREDICTION, told)
+        export(folder / BUNDLE, made.assembled, painter)
+        watch.lap("export")
+        report.append(validate_bundle(folder / BUNDLE))
+        write_json(folder / BUNDLE / "report.json", report[0].as_json())
+        watch.lap("validation")
+
+    fill_folder_atomically(order.out, fill)
+    return Outcome(
+        report=report[0], assembled=made.assembled, seconds=watch.seconds, ious=tuple(ious)
+    )
+
+
+def made_object(order: Order, watch: Stopwatch) -> Made:
+    """What the network predicts of the images, as an object; nothing is written."""
     art, config, _ = load_art(order.checkpoint)
     watch.lap("checkpoint")
     capture, sphere = seen_object(order)
@@ -145,39 +190,12 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
     provenance = {"source": "reconstruction", "checkpoint": file_hash(order.checkpoint)}
     assembled = assemble(guess, order.wishes, provenance=provenance)
     if order.photos:
-        assembled = assembled.painted(
-            PhotoColors(assembled.object, photos(capture, sphere, assembled))
-        )
+        shown = photos(capture, sphere, assembled)
+        assembled = assembled.painted(PhotoColors(assembled.object, shown))
     watch.lap("assembly")
-    report: list[Report] = []
-
-    def fill(folder: Path) -> None:
-        painter = Painter(assembled.object, assembled.color)
-        seen = reprojections(capture, sphere, assembled, size=films.SIDE)
-        if order.films:
-            write_films(folder, assembled, painter, seen)
-        watch.lap("films")
-        write_json(
-            folder / PREDICTION,
-            record(
-                prediction,
-                sphere,
-                assembled,
-                seen,
-                states=capture.states,
-                checkpoint=told_checkpoint(order.checkpoint, config),
-            ),
-        )
-        ious.extend(own.iou for own in seen)
-        export(folder / BUNDLE, assembled, painter)
-        watch.lap("export")
-        report.append(validate_bundle(folder / BUNDLE))
-        write_json(folder / BUNDLE / "report.json", report[0].as_json())
-        watch.lap("validation")
-
-    ious: list[float] = []
-    fill_folder_atomically(order.out, fill)
-    return Outcome(report=report[0], assembled=assembled, seconds=watch.seconds, ious=tuple(ious))
+    return Made(
+        capture=capture, sphere=sphere, config=config, prediction=prediction, assembled=assembled
+    )
 
 
 def seen_object(order: Order) -> tuple[Capture, Sphere]:
