@@ -1,4 +1,4 @@
-"""Geometry keeps its digits, whatever autocast surrounds it; numbers next to nothing cost nothing."""
+"""Geometry keeps its digits whatever autocast does; numbers next to nothing cost no time."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
