@@ -79,8 +79,8 @@ def one_thread() -> Iterator[None]:
 
 @pytest.mark.usefixtures("one_thread")
 def test_the_ladder_is_climbed(tmp_path: Path) -> None:
-    """The ladder's goals but for color, which reaches 30 dB only in the study's longer climb; axes
-    and motions are those of an object learned by heart."""
+    """The ladder's goals, but for color: the climb ends some steps before 30 dB. Axes and motions
+    are those of an object learned by heart."""
     masks, joints, colors = _climbed(tmp_path)
     assert masks.mask_iou > 0.95
     assert min(joints.mask_iou, colors.mask_iou) > 0.9  # The knob is a pixel or two: 0.1 of a part.
