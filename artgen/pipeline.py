@@ -6,7 +6,7 @@ import os
 import shutil
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -167,18 +167,29 @@ class Stopwatch:
 def make_asset(task: AssetTask, tools: Toolbox) -> Outcome:
     """Build, finish, export and validate one asset; it lands whole in assets/ or in failed/."""
     watch = Stopwatch()
-    rule = task.rule
-    obj = built(task, rule, tools, watch)
-    staged = task.place(tools.folder.work / "staged")
+    obj = built(task, task.rule, tools, watch)
+    return landed(obj, tools, watch, place=task.place, occlusion=task.occlusion)
+
+
+def landed(
+    obj: ArticulatedObject,
+    tools: Toolbox,
+    watch: Stopwatch,
+    *,
+    place: Callable[[Path], Path],
+    occlusion: bool = False,
+) -> Outcome:
+    """Export and validate a finished object; it lands whole in assets/ or in failed/.
+
+    Args:
+        place: the object's folder below a folder of the run.
+    """
+    staged = place(tools.folder.work / "staged")
     messages: list[str] = []
 
     def fill(partial: Path) -> None:
         write_bundle(
-            obj,
-            partial,
-            library=tools.textures,
-            worker=tools.blender,
-            occlusion=task.occlusion,
+            obj, partial, library=tools.textures, worker=tools.blender, occlusion=occlusion
         )
         watch.lap("export")
         report = validate_bundle(partial)
@@ -187,13 +198,13 @@ def make_asset(task: AssetTask, tools: Toolbox) -> Outcome:
         watch.lap("validate")
 
     fill_folder_atomically(staged, fill)
-    home, other = task.place(tools.folder.assets), task.place(tools.folder.failed)
+    home, other = place(tools.folder.assets), place(tools.folder.failed)
     if messages:
         home, other = other, home
     _move(staged, home)
     shutil.rmtree(other, ignore_errors=True)
     return Outcome(
-        asset_id=task.asset_id,
+        asset_id=obj.asset_id,
         status="failed" if messages else "made",
         message="; ".join(messages[:3]),
         seconds=watch.seconds,

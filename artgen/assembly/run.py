@@ -12,13 +12,11 @@ from artgen.assembly.assemble import Assembled, GivenUp, assembled, finished
 from artgen.assembly.choice import Market
 from artgen.assembly.library import Library
 from artgen.core.errors import ArtgenError, UsageError
-from artgen.core.jsonio import fill_folder_atomically, write_json
+from artgen.core.jsonio import write_json
 from artgen.core.stream import Stream
-from artgen.export import write_bundle
-from artgen.pipeline import Outcome, Stopwatch, Toolbox
+from artgen.pipeline import Outcome, Stopwatch, Toolbox, landed
 from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
-from artgen.validate import validate_bundle
 
 TEMPLATES: Mapping[str, tuple[str, ...]] = {"storage_furniture": ("storage_furniture", "cabinet")}
 """What can be assembled, and the categories of its templates."""
@@ -79,31 +77,7 @@ def make_object(task: AssembleTask, bench: Bench) -> Outcome:
     }
     obj = finished(new, asset_id=task.asset_id, provenance=provenance)
     watch.lap("finish")
-    staged = task.place(folder.work / "staged")
-    messages: list[str] = []
-
-    def fill(partial: Path) -> None:
-        write_bundle(obj, partial, library=bench.tools.textures, worker=bench.tools.blender)
-        watch.lap("export")
-        report = validate_bundle(partial)
-        write_json(partial / "report.json", report.as_json())
-        messages.extend(str(finding) for finding in report.findings)
-        watch.lap("validate")
-
-    fill_folder_atomically(staged, fill)
-    home, other = task.place(folder.assets), task.place(folder.failed)
-    if messages:
-        home, other = other, home
-    home.parent.mkdir(parents=True, exist_ok=True)
-    shutil.rmtree(home, ignore_errors=True)
-    staged.rename(home)
-    shutil.rmtree(other, ignore_errors=True)
-    return Outcome(
-        asset_id=task.asset_id,
-        status="failed" if messages else "made",
-        message="; ".join(messages[:3]),
-        seconds=watch.seconds,
-    )
+    return landed(obj, bench.tools, watch, place=task.place)
 
 
 def _set_aside(

@@ -6,16 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from artgen.assembly_study.rows import DENSITY_BINS, STRETCH_BINS, Chunk
-from artgen.core.errors import UsageError
 from artgen.core.mesh import Floats
-
-try:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as error:
-    raise UsageError(
-        "studies draw plots with matplotlib, which is not installed: pip install 'artgen[study]'"
-    ) from error
+from artgen.studies.canvas import Figure, FigureCanvasAgg
 
 INCHES, DPI = (8.6, 3.4), 110
 

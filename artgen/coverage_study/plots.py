@@ -5,20 +5,11 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from artgen.core.errors import UsageError
 from artgen.coverage_study.drawn import Drawn
 from artgen.coverage_study.neighbours import TWIN, Neighbour
 from artgen.coverage_study.rows import column
 from artgen.rules.schema import CategoryRule
-
-try:
-    from matplotlib.axes import Axes
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as error:
-    raise UsageError(
-        "studies draw plots with matplotlib, which is not installed: pip install 'artgen[study]'"
-    ) from error
+from artgen.studies.canvas import Axes, Figure, FigureCanvasAgg
 
 COLUMNS = 8
 CELL = (1.5, 1.15)

@@ -6,16 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from artgen.core.errors import UsageError
+from artgen.studies.canvas import Figure, FigureCanvasAgg
 from artgen.studies.front import pareto_front
-
-try:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-except ImportError as error:
-    raise UsageError(
-        "studies draw plots with matplotlib, which is not installed: pip install 'artgen[study]'"
-    ) from error
 
 INCHES = (7.2, 4.6)
 DPI = 110
