@@ -9,7 +9,7 @@ from typing import Literal
 
 from artgen.core.errors import ModelError
 from artgen.core.jsonio import canonical_json
-from model.config_json import decoded
+from model.config_json import LATER, decoded
 from model.data.config import DataConfig
 from model.schedule import TrainConfig
 
@@ -41,6 +41,8 @@ class ImageTokens:
         encoder: who supplies semantics: `none`, `conv`, `efflite0`, `dinov2:FOLDER` (the paper's)
             or `timm:ARCHITECTURE:FILE`.
         frozen: whether the encoder keeps its weights; `conv` is always learned.
+        blind: whether colors and masks are withheld, so that cameras and the number of parts are
+            all that is known: the baseline that tells what images are worth.
     """
 
     image_px: int = 256
@@ -51,6 +53,7 @@ class ImageTokens:
     state_dim: int = 64
     encoder: str = "none"
     frozen: bool = True
+    blind: bool = dataclasses.field(default=False, metadata=LATER)
 
     def __post_init__(self) -> None:
         if self.image_px % self.patch_px:

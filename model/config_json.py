@@ -4,18 +4,23 @@ import dataclasses
 import json
 import types
 import typing
+from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from artgen.core.errors import ModelError, did_you_mean
 
 Settings = TypeVar("Settings")
 
+ABSENT = "absent"
+LATER: Mapping[str, str] = {ABSENT: "default"}
+"""Metadata of a setting that earlier files lack: they mean its default, which must stay."""
+
 
 def decoded(kind: type[Settings], text: str) -> Settings:
     """The dataclass `kind` whose canonical JSON is `text`.
 
-    Every key must be there: settings that a file leaves out would silently follow the defaults of
-    another version.
+    Every key must be there, but for those that came `LATER`: settings that a file leaves out would
+    silently follow the defaults of another version.
 
     Raises:
         ModelError: the text is no JSON, or a key is unknown, missing or of another type.
@@ -49,18 +54,20 @@ def _settings(kind: Any, value: Any, where: str) -> Any:
     if not isinstance(value, dict):
         raise ModelError(f"settings: {where} is {value!r}, expected the fields of {kind.__name__}")
     hints = typing.get_type_hints(kind)
-    names = [field.name for field in dataclasses.fields(kind)]
+    fields = dataclasses.fields(kind)
+    names = [field.name for field in fields]
     for key in value:
         if key not in names:
             raise ModelError(
                 f"settings: {where} has no {key!r}{did_you_mean(key, names)}; it has "
                 f"{', '.join(names)}"
             )
-    if missing := [name for name in names if name not in value]:
+    needed = [field.name for field in fields if ABSENT not in field.metadata]
+    if missing := [name for name in needed if name not in value]:
         raise ModelError(
             f"settings: {where} lacks {', '.join(missing)}; the file is of another version"
         )
-    return kind(**{name: _value(hints[name], value[name], f"{where}.{name}") for name in names})
+    return kind(**{key: _value(hints[key], own, f"{where}.{key}") for key, own in value.items()})
 
 
 def _optional(kinds: tuple[Any, ...], value: Any, where: str) -> Any:

@@ -4,6 +4,7 @@ B objects, T states, V views, F = T * V images, N patches of an image, P part sl
 slot, D channels, S pixels of an image's side, digits a length.
 """
 
+import dataclasses
 import math
 
 import torch
@@ -62,6 +63,7 @@ class ImageTokenizer(nn.Module):
             ModelError: the images have another size, or more states, than the network was made for.
         """
         checked_images(images, self.config)
+        images = withheld(images) if self.config.blind else images
         parts = [self._patches(images), self._rays(images), self._states(images)]
         if self.encoder is not None:
             parts.append(self._semantics(images, self.encoder))
@@ -138,6 +140,15 @@ def checked_images(images: Images, config: ImageTokens) -> None:
             f"images of {states} states; this network was made for {config.states} at most; give "
             "fewer or train one with a larger `images.states`"
         )
+
+
+def withheld(images: Images) -> Images:
+    """The cameras of the images, without what they show: gray, no mask."""
+    return dataclasses.replace(
+        images,
+        rgb_BTV3HW=torch.full_like(images.rgb_BTV3HW, 0.5),
+        alpha_BTVHW=torch.zeros_like(images.alpha_BTVHW),
+    )
 
 
 class SlotTokens(nn.Module):

@@ -1,14 +1,17 @@
 """DataConfig: what a training item is; torch-free, so that recipes and `--help` stay light."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from artgen.core.conventions import ART_SLOTS
 from artgen.core.errors import ModelError
+from model.config_json import LATER
 
 Motion = Literal["states", "one", "rest"]
 Background = Literal["random", "white", "gray", "black"]
 TargetViews = Literal["inputs", "others"]
+PartOrder = Literal["canonical", "shuffled"]
+Rest = Literal["closed", "first"]
 Range = tuple[float, float]
 
 
@@ -46,6 +49,10 @@ class DataConfig:
             true and those that the network is told; rays stay true.
         pose_noise: deviation of a shift along each axis, radii.
         workers: processes that prepare items; the batches are the same at any number.
+        part_order: `canonical` is the paper's; `shuffled` gives the movable parts of each object
+            slots in an arbitrary order, always the same one: its ablation.
+        rest: `closed` counts boxes, axes and motion from all parts closed, as the paper; `first`
+            from the first state that is shown: its ablation. Needs shapes, which shards lack.
     """
 
     seed: int = 0
@@ -72,6 +79,8 @@ class DataConfig:
     pose_noise_deg: float = 0.0
     pose_noise: float = 0.0
     workers: int = 0
+    part_order: PartOrder = field(default="canonical", metadata=LATER)
+    rest: Rest = field(default="closed", metadata=LATER)
 
     def __post_init__(self) -> None:
         counts = (self.batch, self.slots, self.states, self.views, self.target_views)

@@ -17,7 +17,7 @@ from model.data.draws import background_color, chosen_views
 from model.data.look import Look, drawn_look
 from model.data.pick import ray_draws
 from model.data.soup import Soup
-from model.data.truth import Truth, truth
+from model.data.truth import Truth, counted_from, truth
 from model.data.views import Views, drawn_views, stated_views
 
 
@@ -75,6 +75,8 @@ def drawn_scene(soup: Soup, config: DataConfig, stream: Stream) -> Scene:
     points = turned + poses[:, : len(corners), None, :3, 3]
     seen = points.reshape(len(states), -1, 3)
     inputs = _views(seen, config, stream.child("inputs"), config.views)
+    if config.rest == "first":
+        found = counted_from(found, 0, poses[0], _bounds_in(soup, poses[0]))
     look = drawn_look(len(soup.looks), stream.child("look"))
     looks = soup.looks.astype(np.float64)
     looks[:, :3] = np.clip(looks[:, :3] * look.gains, 0.0, 1.0)
@@ -106,6 +108,16 @@ def _poses(soup: Soup, states: Sequence[State], slots: int) -> Floats:
         moved = np.stack([by_name[name] for name in soup.parts])
         poses[t, : len(moved)] = centered(moved, soup.center, soup.radius)
     return poses
+
+
+def _bounds_in(soup: Soup, poses: Floats) -> Floats:
+    """(P, 2, 3) boxes of the parts' triangles where a state puts them, radii."""
+    corners = (soup.vertices[soup.faces] - soup.center) / soup.radius
+    boxes = []
+    for part, pose in enumerate(poses[: len(soup.parts)]):
+        points = corners[soup.part == part].reshape(-1, 3) @ pose[:3, :3].T + pose[:3, 3]
+        boxes.append([points.min(axis=0), points.max(axis=0)])
+    return np.array(boxes)
 
 
 def drawn_states(

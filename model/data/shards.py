@@ -21,6 +21,7 @@ from model.data.merge import merged
 from model.data.order import Permutations
 from model.data.pick import picked
 from model.data.pictures import Pictures, Reading
+from model.data.shuffle import shuffled
 from model.data.truth import articulation
 
 log = logging.getLogger(__name__)
@@ -67,7 +68,16 @@ class ShardSource:
         return Permutations(len(self), seed=seed)
 
     def plan(self, position: int, config: DataConfig, stream: Stream) -> Pictures:
-        """One item: states and views chosen, and their images read."""
+        """One item: states and views chosen, and their images read.
+
+        Raises:
+            ModelError: the sample lacks what the settings ask for.
+        """
+        if config.rest != "closed":
+            raise ModelError(
+                f"data.rest {config.rest!r} needs the shapes of parts, and shards hold images "
+                "alone; learn from a library (artgen train-data), or leave rest 'closed'"
+            )
         shard, asset_id = self._dataset.shard(self.positions[position])
         facts = shard.facts(asset_id)
         states = _chosen_states(facts, config, stream.child("states"))
@@ -81,7 +91,8 @@ class ShardSource:
 
     def batch(self, planned: Sequence[Pictures], config: DataConfig, device: torch.device) -> Batch:
         """The items on the device; samples of different image sizes may come together."""
-        return merged([_shown(item, config, device) for item in planned])
+        batch = merged([_shown(item, config, device) for item in planned])
+        return shuffled(batch) if config.part_order == "shuffled" else batch
 
 
 def _chosen_states(facts: Mapping[str, Any], config: DataConfig, stream: Stream) -> list[int]:

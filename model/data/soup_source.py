@@ -20,6 +20,7 @@ from model.data.library import Library
 from model.data.order import Permutations
 from model.data.pick import picked
 from model.data.scene import Scene, drawn_scene
+from model.data.shuffle import shuffled
 from model.data.stage import (
     Stage,
     cast,
@@ -81,7 +82,8 @@ class SoupSource:
 
     def batch(self, planned: Sequence[Scene], config: DataConfig, device: torch.device) -> Batch:
         """The items, cast on the device."""
-        return shown(planned, config, device)
+        batch = shown(planned, config, device)
+        return shuffled(batch) if config.part_order == "shuffled" else batch
 
 
 def shown(scenes: Sequence[Scene], config: DataConfig, device: torch.device) -> Batch:

@@ -2,7 +2,7 @@
 tensor block."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from artgen.articulation.targets import FIXED, REVOLUTE, Targets
 from artgen.core.errors import ModelError
+from artgen.core.mesh import Floats
 from model.batch import Articulation
 
 
@@ -52,6 +53,31 @@ def truth(targets: Targets, *, radius: float, slots: int) -> Truth:
     padded["parent_P"][count:] = -1
     padded["motion_TP"] = _padded(targets.motion.T, slots).T
     return Truth(arrays=padded, radius=radius)
+
+
+def counted_from(found: Truth, state: int, poses: Floats, bounds: Floats) -> Truth:
+    """The truth with one of its states for rest, as those have it who do not know what closed is.
+
+    Args:
+        poses: (P, 4, 4) where parts at rest are in that state, radii.
+        bounds: (N, 2, 3) of the N parts in that state, radii.
+    """
+    arrays = {name: array.copy() for name, array in found.arrays.items()}
+    count = len(bounds)
+    center, axis = bounds.mean(axis=1), arrays["axis_P3"]
+    above = poses[np.maximum(arrays["parent_P"], 0)]
+    axis[:] = np.einsum("pij,pj->pi", above[:, :3, :3], axis)
+    origin = np.einsum("pij,pj->pi", above[:, :3, :3], arrays["origin_P3"]) + above[:, :3, 3]
+    turns = arrays["type_P"] == REVOLUTE
+    along = np.einsum("pi,pi->p", center - origin[:count], axis[:count])
+    origin[:count] += along[:, None] * axis[:count]
+    start = arrays["motion_TP"][state].copy()
+    endless = turns & (np.ptp(arrays["limits_P2"], axis=1) >= 1.0)
+    arrays["center_P3"][:count], arrays["size_P3"][:count] = center, bounds[:, 1] - bounds[:, 0]
+    arrays["origin_P3"] = np.where(turns[:, None], origin, 0.0)
+    arrays["motion_TP"] -= start
+    arrays["limits_P2"] -= np.where(endless, 0.0, start)[:, None]
+    return replace(found, arrays=arrays)
 
 
 def _padded(array: NDArray[Any], slots: int) -> NDArray[Any]:

@@ -54,8 +54,8 @@ class HeldOut:
 
 
 def held_out_config(config: DataConfig, *, extra: bool) -> DataConfig:
-    """The data that judging needs: no rays, a white ground, one object at a time, and more views
-    and states where the source can make them."""
+    """The data that judging needs: no rays, a white ground, one object at a time, the canonical
+    truth, and more views and states where the source can make them."""
     return dataclasses.replace(
         config,
         batch=1,
@@ -68,6 +68,8 @@ def held_out_config(config: DataConfig, *, extra: bool) -> DataConfig:
         target_views=1,
         background="white",
         workers=0,
+        part_order="canonical",
+        rest="closed",
     )
 
 

@@ -76,3 +76,9 @@ def test_text_that_is_no_json_is_refused() -> None:
         Config.from_json("{")
     with pytest.raises(ModelError, match=r"Config is \[\], expected the fields of Config"):
         Config.from_json("[]")
+
+
+def test_settings_that_came_later_mean_their_default() -> None:
+    tree = json.loads(TEXT)
+    del tree["model"]["images"]["blind"], tree["data"]["part_order"], tree["data"]["rest"]
+    assert Config.from_json(json.dumps(tree)) == Config.from_json(TEXT)

@@ -113,6 +113,19 @@ def test_a_token_concatenates_what_the_settings_name(
     assert layer(drawn_images(6)).shape == (2, STATES * VIEWS, 4, 16)
 
 
+@pytest.mark.parametrize("encoder", ["none", "conv"])
+def test_the_blind_see_cameras_and_no_pixel(encoder: str) -> None:
+    one, other = drawn_images(5), drawn_images(6)
+    same_cameras = dataclasses.replace(
+        one, rgb_BTV3HW=other.rgb_BTV3HW, alpha_BTVHW=1.0 - one.alpha_BTVHW
+    )
+    layer = tokenizer(alpha=True, encoder=encoder, blind=True)
+    assert torch.equal(layer(one), layer(same_cameras))
+    assert not torch.equal(layer(one), layer(other))
+    sees = tokenizer(alpha=True, encoder=encoder)
+    assert not torch.equal(sees(one), sees(same_cameras))
+
+
 def test_slopes_of_image_tokens_are_right() -> None:
     images = drawn_images(7, objects=1, states=1, views=1)
     layer = tokenizer(encoder="conv")

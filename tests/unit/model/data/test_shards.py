@@ -14,7 +14,9 @@ from artgen.dataset.shard import write_shard
 from model.data.config import DataConfig
 from model.data.loader import batches
 from model.data.shards import ShardSource
+from model.data.shuffle import shuffled
 from tests.unit.dataset.scenes import made_sample
+from tests.unit.model.data.small import assert_equal
 
 CONFIG = DataConfig(batch=2, slots=4, views=2, states=2, input_px=8, target_px=8, rays=64)
 IDS = ("laptop_000000", "laptop_000001", "laptop_000002")
@@ -165,3 +167,14 @@ def _pixel(sample: Sample, t: int, origin, direction) -> tuple[int, int, int, fl
         assert abs(y % 1 - 0.5) < 1e-3
         return v, int(y), int(x), float(local[2])
     raise AssertionError("no camera stands where the ray begins")
+
+
+def test_shards_know_no_other_rest_and_may_be_shuffled(source):
+    first = dataclasses.replace(CONFIG, rest="first")
+    with pytest.raises(ModelError, match="needs the shapes of parts"):
+        source.plan(0, first, Stream(0))
+    batch = [
+        source.batch([source.plan(0, config, Stream(0))], config, torch.device("cpu"))
+        for config in (CONFIG, dataclasses.replace(CONFIG, part_order="shuffled"))
+    ]
+    assert_equal(batch[1], shuffled(batch[0]))

@@ -61,3 +61,10 @@ def test_objects_that_do_not_fit_are_left_out() -> None:
     names = [item.name for item in held_out(SoupSource(library(), slots=6), SHOWN, count=99)]
     assert len(names) == len(SoupSource(library(), slots=6))
     assert not any(name.startswith("office_chair") for name in names)
+
+
+def test_the_truth_is_canonical_whatever_was_learned(item: HeldOut) -> None:
+    other = dataclasses.replace(SHOWN, part_order="shuffled", rest="first")
+    again = next(held_out(SoupSource(library(), slots=6), other, count=1))
+    assert torch.equal(again.shown.truth.center_BP3, item.shown.truth.center_BP3)
+    assert torch.equal(again.shown.truth.motion_BTP, item.shown.truth.motion_BTP)
