@@ -14,6 +14,8 @@ Cell = tuple[tuple[float, float], tuple[float, float]]
 """(x, z) of the lower left and the upper right corner of a room with its share of the walls."""
 LINER = 0.0025
 """m; thickness of a liner as drawn."""
+BEND = 0.012
+"""m; radius of the coil's bends."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,18 +178,27 @@ class ColdCase:
         return [Body(solid=plate - union(cuts), surface=surface, density=ABS)]
 
     def coil(self, surface: str, *, legs: int) -> list[Body]:
-        """The condenser's serpentine on the back with its wire rungs."""
+        """The condenser's serpentine on the back with its wire rungs; fewer legs where a case is
+        too low for the bends between so many."""
         y, wide = self.depth + 0.014, self.half - 0.07
         low, high = self.foot + self.niche[1] + 0.06, self.top - 0.08
         points = []
-        for k, z in enumerate(np.linspace(low, high, legs)):
+        for k, z in enumerate(np.linspace(low, high, legs_that_fit(high - low, legs))):
             side = wide if k % 2 else -wide
             points += [(side, y, float(z)), (-side, y, float(z))]
-        tube = wire(bent(points, 0.012), 0.0028, sides=5)
+        tube = wire(bent(points, BEND), 0.0028, sides=5)
         start, end = self.depth - 0.001, y - 0.002
         rungs = [slab((x - 0.001, start, low - 0.01), (x + 0.001, end, high + 0.01))
                  for x in np.linspace(-0.8 * wide, 0.8 * wide, 4)]  # fmt: skip
         return [Body(solid=union([tube, *rungs]), surface=surface, density=STEEL)]
+
+
+def legs_that_fit(room: float, wanted: int) -> int:
+    """How many legs of a serpentine lie over `room` m: as many as wanted if two bends fit between
+    neighbors; else as many as leave a tenth of the bends straight, two at least."""
+    if room > 2.0 * BEND * (wanted - 1):
+        return wanted
+    return max(2, 1 + int(room / (2.2 * BEND)))
 
 
 def boxes_outside(piece: Solid, hole: Solid) -> list[Solid]:
