@@ -37,6 +37,17 @@ _COLUMNS = {
     "fact": (np.uint8, ()),
 }
 """What every row holds; `place` and `corner` lie in the file as differences, which pack well."""
+_ROW = {
+    "bounds": "parts",
+    "place": "vertices",
+    "corner": "faces",
+    "body_faces": "bodies",
+    "body_part": "bodies",
+    "body_surface": "bodies",
+    "look": "looks",
+    "fact": "facts",
+}
+"""What a column has a row for each of; the others have one for each soup."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -235,6 +246,31 @@ def read_library(path: Path) -> Library:
         categories=tuple(names["categories"]),
         made=names["made"],
     )
+
+
+def taken(library: Library, positions: Sequence[int]) -> Library:
+    """Some of its soups, bit for bit, in the order of the positions."""
+    return joined([_alone(library, k) for k in positions])
+
+
+def _alone(library: Library, k: int) -> Library:
+    first, last = library.starts[k], library.starts[k + 1]
+    columns = {}
+    for name, column in library.columns.items():
+        kind = _ROW.get(name)
+        place = slice(k, k + 1) if kind is None else _rows(kind, first, last)
+        columns[name] = column[place]
+    return Library(
+        columns=columns,
+        starts=np.stack([np.zeros_like(first), last - first]),
+        ids=library.ids[k : k + 1],
+        categories=library.categories[k : k + 1],
+    )
+
+
+def _rows(kind: str, first: NDArray[np.int64], last: NDArray[np.int64]) -> slice:
+    place = _COUNTS.index(kind)
+    return slice(int(first[place]), int(last[place]))
 
 
 def joined(libraries: Sequence[Library], *, made: Mapping[str, object] | None = None) -> Library:

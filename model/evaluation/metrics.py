@@ -125,6 +125,7 @@ METRICS: Mapping[str, Metric] = {
     "particulate.full_oc": Metric("squared, object = 1", "less"),
     **_under("particulate.pairs", _PARTICULATE),
     **_matched("joints", _JOINT),
+    **_matched("states", {"center": Metric("radii", "less")}),
     **_under("surfaces.rest", _SURFACE),
     **_under("surfaces.open", _SURFACE),
     **_under("surfaces.floor", {"chamfer_l1": _SURFACE["chamfer_l1"],

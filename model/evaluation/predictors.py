@@ -27,6 +27,7 @@ from model.evaluation.predictions import layout_of, with_observed_limits
 from model.evaluation.simulated import prediction_gates
 from model.extract import ColoredMesh, part_meshes
 from model.infer import predict
+from model.kinematics import world_from_rest
 from model.object_fit import FitConfig, fit_object
 from model.pictures import pictures
 from model.prediction import Prediction
@@ -134,7 +135,8 @@ class ArtPredictor:
         if self.gated:
             radius = float(item.shown.radius_B[0])
             held = prediction_gates(prediction, radius=radius, resolution=self.resolution)
-        return Guess(layout, images, held)
+        first = self.config.data.rest == "first"
+        return Guess(layout, images, held, rest=0 if first else None)
 
     def _images(self, prediction: Prediction, item: HeldOut) -> Images:
         """Of views that were not shown, in the states that were and in those that were not.
@@ -147,7 +149,10 @@ class ArtPredictor:
         if not poses.shape[2]:
             return {}
         height, width = cameras.rgb_BTV3HW.shape[-2:]
-        articulation = with_more_states(prediction.articulation, everything.truth)
+        truth = everything.truth
+        if self.config.data.rest == "first":
+            truth = counted_from_first(truth)
+        articulation = with_more_states(prediction.articulation, truth)
         made = pictures(
             prediction.field(),
             articulation,
@@ -205,6 +210,18 @@ def with_more_states(predicted: Articulation, true: Articulation) -> Articulatio
     signed = more * flips(predicted, true_axes)[:, None]
     return dataclasses.replace(
         predicted, motion_BTP=torch.cat([predicted.motion_BTP, signed], dim=1)
+    )
+
+
+def counted_from_first(true: Articulation) -> Articulation:
+    """Axes and motion of the truth as counted from its first state."""
+    poses = world_from_rest(true)[:, 0]
+    parents = true.parent_BP.clamp(min=0)[..., None, None].expand_as(poses)
+    above = torch.gather(poses, 1, parents)[..., :3, :3]
+    return dataclasses.replace(
+        true,
+        axis_BP3=(above @ true.axis_BP3[..., None])[..., 0],
+        motion_BTP=true.motion_BTP - true.motion_BTP[:, :1],
     )
 
 

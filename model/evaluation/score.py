@@ -13,6 +13,7 @@ from model.evaluation.joints import JointErrors, joint_errors
 from model.evaluation.layout import Layout
 from model.evaluation.matching import Matching, by_nearness, by_order
 from model.evaluation.metrics import METRICS
+from model.evaluation.observed import state_centers
 from model.evaluation.paris import paris
 from model.evaluation.particulate import ParticulateScores, Punished, in_cube, particulate
 from model.evaluation.reshape import placed
@@ -118,6 +119,7 @@ def score(
     for name, matching in matchings.items():
         _put(found, f"singapo.honest.{name}", asdict(honest(predicted, true, matching)))
         _put_joints(found, f"joints.{name}", joint_errors(predicted, true, matching))
+        _put(found, f"states.{name}", {"center": state_centers(predicted, true, matching)})
     if protocol.mask_pixels:
         seen = mask_scores(predicted, true, matchings, pixels=protocol.mask_pixels)
         for name, masks in seen.items():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from artgen.core.errors import ModelError
-from model.data.library import STEPS, joined, packed, read_library, write_library
+from model.data.library import STEPS, joined, packed, read_library, taken, write_library
 from model.data.soup import Soup
 from tests.unit.model.data.small import library, soup
 
@@ -25,6 +25,16 @@ def test_joining_is_packing_together():
     assert np.array_equal(whole.starts, parts.starts)
     for name, column in whole.columns.items():
         assert np.array_equal(column, parts.columns[name]), name
+
+
+def test_what_is_taken_is_what_would_have_been_packed():
+    chosen = taken(library(), [4, 0, 3])
+    alone = packed([soup("cardboard_box"), soup("cabinet", 0), soup("laptop")])
+    assert chosen.ids == alone.ids
+    assert chosen.categories == alone.categories
+    assert np.array_equal(chosen.starts, alone.starts)
+    for name, column in alone.columns.items():
+        assert np.array_equal(column, chosen.columns[name]), name
 
 
 def test_equal_libraries_are_equal_bytes(tmp_path):

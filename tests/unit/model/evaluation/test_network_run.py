@@ -8,16 +8,19 @@ import pytest
 import torch
 
 from artgen.core.errors import UsageError
+from artgen.core.stream import Stream
 from model.art import Art
 from model.art_file import ModelCard, save_art
 from model.batch import Articulation
 from model.data.library import write_library
+from model.data.scene import drawn_scene
+from model.data.truth import articulation as articulation_of
 from model.evaluation.cli import evaluate
 from model.evaluation.held_out import flips
 from model.evaluation.network_run import NetworkRun, shown_to
-from model.evaluation.predictors import with_more_states
+from model.evaluation.predictors import counted_from_first, with_more_states
 from model.recipes import RECIPES
-from tests.unit.model.data.small import library
+from tests.unit.model.data.small import CONFIG, library, soup
 from tests.unit.model.evaluation.test_predictions import articulation
 
 OPTIONS = ["--points", "200", "--part-points", "200", "--mask-pixels", "16", "--split", "all"]
@@ -101,3 +104,28 @@ def test_a_new_state_is_reached_by_the_true_motion() -> None:
     moved = with_more_states(flipped, Articulation(**{**vars(true), "motion_BTP": longer}))
     assert moved.motion_BTP[0, 2].tolist() == pytest.approx([0.0, 0.0, -0.3, -0.4], abs=1e-7)
     assert flips(true, true).tolist() == [[1.0, 1.0, 1.0, 1.0]]
+
+
+def test_the_truth_as_counted_from_the_first_state() -> None:
+    """As the training data states it for `rest='first'`; float32 axes of unit length."""
+    config = dataclasses.replace(CONFIG, rest="closed")
+    scenes = [
+        drawn_scene(soup("cabinet"), dataclasses.replace(config, rest=rest), Stream(4))
+        for rest in ("closed", "first")
+    ]
+    closed, first = (articulation_of([scene.truth], torch.device("cpu")) for scene in scenes)
+    counted = counted_from_first(closed)
+    torch.testing.assert_close(counted.axis_BP3, first.axis_BP3, rtol=0.0, atol=1e-6)
+    torch.testing.assert_close(counted.motion_BTP, first.motion_BTP, rtol=0.0, atol=1e-6)
+
+
+def test_a_network_that_counts_from_the_first_state_is_judged_there(place: Path) -> None:
+    torch.manual_seed(0)
+    config = RECIPES["debug"]("nano")
+    config = dataclasses.replace(config, data=dataclasses.replace(config.data, rest="first"))
+    path = place / "first.safetensors"
+    save_art(path, Art(config.model).eval(), config, ModelCard())
+    options = ("--count", "1", "--resolution", "0", "--samples", "4", "--no-gates")
+    found = run(place, str(path), "first", *options)
+    assert found["images.new_state.psnr"]["values"] == 2
+    assert found["states.nearest.center"]["values"] == 1

@@ -1,0 +1,63 @@
+"""The objects of a study, parted once: nested sets to learn from, and one set to be judged on."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from pathlib import Path
+
+from artgen.core.errors import UsageError
+from artgen.core.stream import Stream
+from artgen.dataset.split import Split, split_of
+from model.data.library import Library, read_library, taken, write_library
+
+HELD_OUT = "held_out.npz"
+
+
+def training_path(folder: Path, count: int) -> Path:
+    """Where the set of `count` objects to learn from lies."""
+    return folder / f"train_{count:05d}.npz"
+
+
+def write_objects(
+    library: Path, folder: Path, *, counts: Sequence[int], held_out: int, slots: int
+) -> None:
+    """Write `train_COUNT.npz` for every count and `held_out.npz`, unless they are there.
+
+    Training sets come of the split train, each within the next larger one; the held-out set of the
+    split test. All hold the categories in turn, and of each category the objects that a draw by
+    their ids puts first.
+
+    Raises:
+        UsageError: the library has too few objects.
+    """
+    wanted: list[tuple[Path, Split, int]] = [
+        (training_path(folder, count), "train", count) for count in counts
+    ]
+    wanted.append((folder / HELD_OUT, "test", held_out))
+    missing = [row for row in wanted if not row[0].exists()]
+    if not missing:
+        return
+    whole = read_library(library)
+    for path, split, count in missing:
+        ranked = ranked_positions(whole, split, slots)
+        if len(ranked) < count:
+            raise UsageError(
+                f"{library}: {len(ranked)} objects of the split {split} have at most {slots} "
+                f"parts, {count} are asked for; make a larger library (artgen train-data) or ask "
+                "for fewer"
+            )
+        write_library(path, taken(whole, ranked[:count]))
+
+
+def ranked_positions(library: Library, split: Split, slots: int) -> list[int]:
+    """Positions of a split's objects that fit, the categories in turn."""
+    by_category: dict[str, list[tuple[float, int]]] = defaultdict(list)
+    for k, (name, parts) in enumerate(zip(library.ids, library.part_counts, strict=True)):
+        if parts <= slots and split_of(name, library.donors(k)) == split:
+            draw = float(Stream(0, "training study", name).generator().random())
+            by_category[library.categories[k]].append((draw, k))
+    ranked = [
+        (rank, category, k)
+        for category, own in by_category.items()
+        for rank, (_, k) in enumerate(sorted(own))
+    ]
+    return [k for _, _, k in sorted(ranked)]
