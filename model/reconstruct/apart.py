@@ -2,8 +2,9 @@
 then what is larger.
 
 Predicted parts overlap by about a step of the grid they were extracted from. The cover of a part,
-grown by the clearance, is cut out of its neighbor by exact booleans. Where that would eat too much,
-two moving parts wait for each other (a drawer behind a door), or the joint's way ends there.
+grown by the clearance, is cut out of its neighbor by exact booleans; parts that are sunk deep into
+each other are parted by a plane. Where a way would eat too much, two moving parts wait for each
+other (a drawer behind a door), or the joint's way ends there.
 """
 
 import numpy as np
@@ -15,6 +16,7 @@ from artgen.geometry.clearance import Mover, inverted_poses, overlaps, shape_of_
 from artgen.geometry.solid import Solid, union
 from artgen.validate.sweep import Sweep, sweep_poses
 from model.reconstruct.cover import Convex, convex_cover, grown, swept
+from model.reconstruct.planes import parted
 from model.reconstruct.scene import Scene, sweeps_of
 from model.reconstruct.shapes import mended, sound
 
@@ -22,12 +24,22 @@ MOST_INSIDE = 0.08
 """Share of a moving part that may lie inside another on its way and be taken for noise."""
 MOST_EATEN = 0.2
 """Share of its volume that a part may lose to another's way."""
-MOST_SWALLOWED = 0.9
-"""The same at rest, where the other part could give way instead."""
+MOST_SWALLOWED = 0.6
+"""The same at rest; beyond, a plane parts the two."""
+DEEP = 0.15
+"""Share of the smaller of two parts, neither of which carries the other, that may lie in the other
+and be cut out of it; beyond, a plane parts the two."""
+WIDE = 2.5
+"""Clearances between parts that a plane parts, so that their covers, too, keep apart."""
+MOST_PARTED = 0.8
+"""Share of its volume that a plane may take; beyond, the part that hangs on the other becomes a
+piece of what carries it."""
 MOST_GIVEN = 0.5
 """The same where its way would else be all but lost."""
 LEAST_LEFT = 0.4
 """Share of its way that a joint keeps at least, if cutting can help it."""
+KEPT = 0.95
+"""Share of its volume that a part has kept where its cover still serves."""
 SLACK = 0.1
 """Share of the clearance by which merging triangles may move a cut surface."""
 WORTH = 1e-10
@@ -35,7 +47,7 @@ WORTH = 1e-10
 
 
 class Cutter:
-    """Covers of parts, made when first needed; parts only shrink, so a cover stays one.
+    """Covers of parts, made when first needed; a part that shrinks a little keeps its cover.
 
     Args:
         clearance: m of air between parts at rest.
@@ -43,14 +55,17 @@ class Cutter:
 
     def __init__(self, clearance: float) -> None:
         self.clearance = clearance
-        self._covers: dict[str, Convex] = {}
+        self._covers: dict[str, tuple[float, Convex]] = {}
 
     def tool(self, scene: Scene, name: str) -> Convex:
         """What is cut out for a part."""
-        if name not in self._covers:
-            cover = convex_cover(scene.solids[name], tolerance=0.5 * self.clearance)
-            self._covers[name] = grown(cover, 1.5 * self.clearance)
-        return self._covers[name]
+        volume = scene.solids[name].volume
+        known, cover = self._covers.get(name, (0.0, ()))
+        if not KEPT * known <= volume <= known:
+            plain = convex_cover(scene.solids[name], tolerance=0.5 * self.clearance)
+            cover = grown(plain, 1.5 * self.clearance)
+            self._covers[name] = volume, cover
+        return cover
 
     def mended(self, solid: Solid) -> Solid:
         """A cut solid without slivers."""
@@ -66,13 +81,39 @@ def apart_at_rest(scene: Scene, cutter: Cutter) -> Scene:
     names = sorted(scene.solids, key=lambda name: scene.solids[name].volume)
     for place, one in enumerate(names):
         for other in names[place + 1 :]:
-            loses, wins = ranked(scene, one, other)
-            eaten = _eaten(scene, cutter, loses, wins)
-            if eaten > MOST_SWALLOWED and _eaten(scene, cutter, wins, loses) < eaten:
-                loses, wins = wins, loses
-            if eaten > 0.0:
-                scene = _given_way(scene, cutter, loses, wins)
+            if one in scene.solids and other in scene.solids:
+                scene = _apart(scene, cutter, *ranked(scene, one, other))
     return scene
+
+
+def _apart(scene: Scene, cutter: Cutter, loses: str, wins: str) -> Scene:
+    """Two parts apart at rest, by the cover of one or by a plane."""
+    eaten = _eaten(scene, cutter, loses, wins)
+    if eaten == 0.0:
+        return scene
+    if eaten > MOST_SWALLOWED or (
+        loses != scene.base and loses not in scene.carriers(wins) and _deep(scene, loses, wins)
+    ):
+        return _parted(scene, loses, wins, WIDE * cutter.clearance)
+    return _given_way(scene, cutter, loses, wins)
+
+
+def _deep(scene: Scene, one: str, other: str) -> bool:
+    """Whether a good share of one of two parts lies in the other."""
+    solids = scene.solids[one], scene.solids[other]
+    return (solids[0] & solids[1]).volume > DEEP * min(solid.volume for solid in solids)
+
+
+def _parted(scene: Scene, loses: str, wins: str, gap: float) -> Scene:
+    """Two parts on the sides of a plane."""
+    found = parted(scene.solids[loses], scene.solids[wins], gap)
+    if found is None or found.lost > MOST_PARTED:
+        return scene.fixed(scene.joint_of(wins).name, f"it cannot be told from {loses}")
+    told = (
+        f"{loses} and {wins} were sunk into each other; a plane across {'xyz'[found.axis]} parts "
+        f"them, which took {found.lost:.0%} of one at most"
+    )
+    return scene.with_solid(loses, found.one).with_solid(wins, found.other).told(told)
 
 
 def _eaten(scene: Scene, cutter: Cutter, loses: str, wins: str) -> float:
@@ -103,7 +144,7 @@ def ranked(scene: Scene, one: str, other: str) -> tuple[str, str]:
 def clear_ways(scene: Scene, cutter: Cutter) -> Scene:
     """Every joint's way free: parts are cut, wait for others, or end their way sooner."""
     for name in [joint.name for joint in scene.joints]:
-        for pair in _pairs(scene, name):
+        for pair in _pairs(scene, name):  # Ways end, but joints and parts stay.
             for sweep in sweeps_of(scene, name):
                 scene = _cleared(scene, cutter, sweep, pair)
     return scene
@@ -130,7 +171,7 @@ def _cleared(scene: Scene, cutter: Cutter, sweep: Sweep, pair: tuple[str, str]) 
         return scene
     limit = MOST_INSIDE * min(sum(piece.volume for piece in tool), whole.volume)
     deep = np.flatnonzero(shared > limit)
-    left = whole - swept(tool, _around(course, met))
+    left = whole - swept(tool, _around(course, met), within=whole.bounds)
     share = 1.0 - left.volume / whole.volume
     cut = scene.with_solid(loses, cutter.mended(left)) if share <= MOST_GIVEN else scene
     cut = cut.told(f"{loses} gave way to {wins} along {sweep.joint}, by {share:.1%} of its volume")

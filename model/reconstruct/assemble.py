@@ -30,14 +30,16 @@ from artgen.core.errors import ModelError
 from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
 from artgen.finish import finish
-from artgen.geometry.solid import Solid, union
+from artgen.geometry.solid import Solid
 from artgen.textures.images import Image, TextureSet
 from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways, made_sound
 from model.reconstruct.contact import contact_pieces
 from model.reconstruct.guess import ObjectGuess
 from model.reconstruct.joints import CleanJoint, clean_joint, parents_first, within_rails
 from model.reconstruct.physics import DENSITY, LEAST, forces, weights
+from model.reconstruct.proof import proven
 from model.reconstruct.scene import Scene
+from model.reconstruct.sense import sensible
 from model.reconstruct.shapes import shape_of
 from model.reconstruct.skin import ColorAt, PaintOver, colored, nearest_color
 
@@ -46,8 +48,10 @@ CLEARANCE = 1e-3
 """m of air between parts at rest; half of what joinery leaves around a door."""
 TOLERANCE = 1e-3
 """Of the radius: how far merging triangles may move a surface."""
-MOST_TRIANGLES = 9000
+MOST_TRIANGLES = 6000
 """Of all parts before they are cut; 15,000 in a bundle weigh 3 MB."""
+MOST_HULLS = 19
+"""Files that a bundle has room for beside its meshes: 30, of which 10 are others, one is spare."""
 BARE = SurfaceSpec(name="skin", recipe="plain")
 
 
@@ -113,7 +117,7 @@ def assemble(
     if not guess.parts or guess.parts[0].slot != 0:
         raise ModelError("the prediction has no base in slot 0; nothing can hang on it")
     joints = parents_first([clean_joint(joint) for joint in guess.joints])
-    solids, told = _solids(guess, {joint.guess.slot for joint in joints})
+    solids, told = _solids(guess, {joint.guess.slot: joint.guess.parent for joint in joints})
     joints = [within_rails(joint, solids[joint.guess.slot].extent) for joint in joints]
     names = _names(solids)
     for joint in joints:
@@ -124,7 +128,7 @@ def assemble(
         changes=tuple(told),
     )
     cutter = Cutter(wishes.clearance)
-    scene = made_sound(clear_ways(apart_at_rest(scene, cutter), cutter))
+    scene = proven(made_sound(clear_ways(apart_at_rest(scene, cutter), cutter)))
     draft = _draft(scene, wishes)
     placed = canonicalize(draft)
     shift = part_bounds(placed.parts[0])[0] - part_bounds(draft.parts[0])[0]
@@ -134,34 +138,41 @@ def assemble(
         rounder=lambda bodies: [],
         provenance={**(provenance or {}), "changes": list(scene.changes)},
     )
-    colors = _colors(guess, names, shift)
+    held = {slot: scene.piece_of(name) for slot, name in names.items()}
+    colors = _colors(guess, held, shift)
     whole, images = colored(bare, colors)
     return Assembled(
         object=whole,
         images=images,
         colors=colors,
-        names=names,
+        names=held,
         shift=shift,
         states=_states(joints, scene, names),
         changes=scene.changes,
     )
 
 
-def _solids(guess: ObjectGuess, moving: set[int]) -> tuple[dict[int, Solid], list[str]]:
-    """Slot to solid, the base first; parts that do not move become pieces of the base."""
+def _solids(guess: ObjectGuess, carriers: Mapping[int, int]) -> tuple[dict[int, Solid], list[str]]:
+    """Slot to solid, the base first; parts that do not move become pieces of the base.
+
+    Args:
+        carriers: moving slot to the slot that carries it.
+    """
     told: list[str] = []
-    solids: dict[int, Solid] = {}
     share = MOST_TRIANGLES // (len(guess.parts) + 1)
+    budgets = {part.slot: share * (2 if part.slot == 0 else 1) for part in guess.parts}
+    found: dict[int, Solid] = {}
     for part in guess.parts:
-        budget = share * (2 if part.slot == 0 else 1)
-        shape = shape_of(part, tolerance=TOLERANCE * guess.radius, triangles=budget)
+        shape = shape_of(part, tolerance=TOLERANCE * guess.radius, triangles=budgets[part.slot])
         told += [f"slot {part.slot}: {change}" for change in shape.changes]
-        if part.slot in moving or part.slot == 0:
-            solids[part.slot] = shape.solid
-        else:
-            solids[0] = union([solids[0], shape.solid])
-            told.append(f"slot {part.slot} does not move and became a piece of the base")
-    return solids, told
+        found[part.slot] = shape.solid
+    guesses = {part.slot: part for part in guess.parts}
+    found, replaced = sensible(found, guesses, budgets, carriers)
+    solids = {slot: solid for slot, solid in found.items() if slot == 0 or slot in carriers}
+    for slot in found.keys() - solids.keys():
+        solids[0] = solids[0] | found[slot]
+        told.append(f"slot {slot} does not move and became a piece of the base")
+    return solids, told + replaced
 
 
 def _names(solids: Mapping[int, Solid]) -> dict[int, str]:
@@ -202,6 +213,7 @@ def _draft(scene: Scene, wishes: Wishes) -> Draft:
     for joint in scene.joints:
         found = forces(joint, scene.joints, heavy, scene.base)
         joints.append(dataclasses.replace(joint, **dataclasses.asdict(found)))
+    slanted = max(1, MOST_HULLS // len(scene.solids) - 1)
     parts = tuple(
         DraftPart(
             name=name,
@@ -211,7 +223,7 @@ def _draft(scene: Scene, wishes: Wishes) -> Draft:
                     solid=solid,
                     surface=BARE.name,
                     density=wishes.density,
-                    collision=contact_pieces(solid),
+                    collision=contact_pieces(solid, slanted=slanted),
                 ),
             ),
         )
@@ -246,8 +258,11 @@ def _states(
     """q of every joint in each state of the images, within the ways that were left."""
     count = min((len(joint.observed) for joint in joints), default=0)
     states: list[dict[str, float]] = [{} for _ in range(count)]
+    left = {joint.name for joint in scene.joints}
     for joint in joints:
         name = f"{names[joint.guess.slot]}_joint"
+        if name not in left:
+            continue
         limit = scene.joint(name).limit
         for state, q in zip(states, joint.observed.tolist(), strict=False):
             state[name] = q if limit is None else float(np.clip(q, limit.lower, limit.upper))

@@ -25,8 +25,6 @@ STEPS = (14, 28, 56)
 """Cells along the longest side, between the planes of faces; finer where coarse hold little."""
 ENOUGH = 0.5
 """Share of the part's volume that boxes hold to be content with."""
-MOST_SLANTED = 10
-"""Boxes that are not along the axes; a bundle holds each as a file."""
 CANDIDATES = 200
 """Largest triangles whose normals are tried as axes of a frame."""
 ALIKE = 0.97
@@ -49,9 +47,13 @@ MOST_HITS = 64
 Cells = NDArray[np.bool_]
 
 
-def contact_pieces(solid: Solid) -> tuple[Solid, ...]:
+def contact_pieces(solid: Solid, *, slanted: int) -> tuple[Solid, ...]:
     """Convex solids inside of `solid`, largest first; its hull where that is all but the same, or
-    where no box fits in."""
+    where no box fits in.
+
+    Args:
+        slanted: boxes at most that are not along the axes; a bundle holds each as a file.
+    """
     hull = solid.hull()
     if solid.volume >= CONVEX * hull.volume:
         return (hull,)
@@ -59,9 +61,9 @@ def contact_pieces(solid: Solid) -> tuple[Solid, ...]:
     if _volume(best) < ENOUGH * solid.volume:
         turn = np.eye(4)
         turn[:3, :3] = face_frame(solid.trimesh())
-        slanted = boxes_inside(solid.transformed(turn))[:MOST_SLANTED]
-        if _volume(slanted) > _volume(best):
-            best = tuple(piece.transformed(turn.T) for piece in slanted)
+        turned = boxes_inside(solid.transformed(turn))[:slanted]
+        if _volume(turned) > _volume(best):
+            best = tuple(piece.transformed(turn.T) for piece in turned)
     return best or (hull,)
 
 

@@ -14,7 +14,7 @@ from artgen.core.mesh import Floats
 from artgen.geometry.normals import face_vectors
 from artgen.geometry.solid import Solid, hull, union
 
-MOST = 12
+MOST = 8
 """Convex pieces of a cover."""
 SPARE = 0.04
 """Share of the part's hull that the cover may hold beyond the part."""
@@ -24,8 +24,10 @@ PLANE = 0.03
 """Share of the surface that looks along an axis at one height and suggests a cut there."""
 BINS = 48
 """Heights along an axis that are told apart."""
-COARSE = 1200
+COARSE = 600
 """Triangles on which cuts are tried."""
+CORNERS = 48
+"""Corners of a convex piece from which they are merged."""
 OCTANTS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
 Convex = tuple[Solid, ...]
 
@@ -64,10 +66,31 @@ def coarse(solid: Solid, triangles: int) -> Solid:
 
 
 def _plain_hull(solid: Solid, tolerance: float) -> Solid:
-    """The hull, its vertices merged within `tolerance` m."""
+    """A convex solid around another, its corners merged within `tolerance` m, or within as much
+    more as leaves few; what merging takes off is given back on all sides."""
     tight = solid.hull()
-    simple = tight.manifold.simplify(tolerance)
-    return tight if simple.is_empty() else Solid(simple).hull()
+    plain = tight
+    reach = float(np.linalg.norm(tight.extent))
+    while tolerance < 0.05 * reach:
+        simple = tight.manifold.simplify(tolerance)
+        if simple.is_empty():
+            break
+        plain = Solid(simple).hull()
+        if plain.manifold.num_vert() <= CORNERS:
+            break
+        tolerance *= 1.5
+    (around,) = grown((plain,), lacking(plain, tight.trimesh().vertices))
+    return around
+
+
+def lacking(convex: Solid, points: Floats) -> float:
+    """How far points lie outside of a convex solid at most, m."""
+    mesh = convex.trimesh()
+    vectors = face_vectors(mesh)
+    area = np.linalg.norm(vectors, axis=1)
+    normals = vectors[area > 0.0] / area[area > 0.0, None]
+    heights = np.einsum("ij,ij->i", normals, mesh.triangles[area > 0.0][:, 0])
+    return max(float((points @ normals.T - heights).max()), 0.0)
 
 
 def _split(solid: Solid, axis: int, height: float) -> tuple[Solid, Solid]:
@@ -116,23 +139,35 @@ def _heights(solid: Solid, axis: int) -> Iterator[float]:
 
 def grown(pieces: Sequence[Solid], gap: float) -> Convex:
     """Each convex piece with all points within `gap` m of it along each axis."""
+    if gap == 0.0:
+        return tuple(pieces)
     return tuple(
         hull((piece.trimesh().vertices[:, None] + gap * OCTANTS).reshape(-1, 3)) for piece in pieces
     )
 
 
-def swept(pieces: Sequence[Solid], course: Floats) -> Solid:
-    """All that convex pieces pass through on (K, 4, 4) poses, straight from each to the next."""
+def swept(pieces: Sequence[Solid], course: Floats, *, within: Floats | None = None) -> Solid:
+    """All that convex pieces pass through on (K, 4, 4) poses, straight from each to the next.
+
+    Args:
+        within: (2, 3) bounds of what is asked for; passages outside are left out.
+    """
     hulls = []
     for piece in pieces:
         points = piece.trimesh().vertices
         placed = points @ course[:, :3, :3].transpose(0, 2, 1) + course[:, None, :3, 3]
-        if _straight(course):
-            hulls.append(m3.Manifold.hull_points(np.concatenate([placed[0], placed[-1]])))
-        else:
-            pairs = [np.concatenate(pair) for pair in pairwise(placed)]
-            hulls += [m3.Manifold.hull_points(pair) for pair in pairs]
+        ends = [placed[[0, -1]]] if _straight(course) else map(np.stack, pairwise(placed))
+        for pair in ends:
+            cloud = pair.reshape(-1, 3)
+            if within is None or _meet(cloud, within):
+                hulls.append(m3.Manifold.hull_points(cloud))
     return union([Solid(own) for own in hulls])
+
+
+def _meet(cloud: Floats, bounds: Floats) -> bool:
+    """Whether the box around points shares a volume with another."""
+    lower, upper = cloud.min(axis=0), cloud.max(axis=0)
+    return bool((lower < bounds[1]).all() and (upper > bounds[0]).all())
 
 
 def _straight(course: Floats) -> bool:

@@ -11,8 +11,8 @@ from artgen.articulation.types import Joint, Limit, Precondition
 from artgen.geometry.solid import Solid
 from artgen.validate.sweep import Sweep, sweeps
 
-POSES = 41
-"""Places along a joint's way at which parts are cut; validators look at every second one."""
+POSES = 21
+"""Places along a joint's way at which parts are cut, those where validators look."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -21,12 +21,14 @@ class Scene:
 
     Attributes:
         rules: which joint waits for which.
+        joined: parts that became pieces of others, by the name of the other.
         changes: what was done so far, a sentence each.
     """
 
     solids: Mapping[str, Solid]
     joints: tuple[Joint, ...]
     rules: tuple[Precondition, ...] = ()
+    joined: Mapping[str, str] = dataclasses.field(default_factory=dict)
     changes: tuple[str, ...] = ()
 
     @property
@@ -78,6 +80,31 @@ class Scene:
         """The same where one joint waits for another."""
         rule = Precondition(joint=joint, requires=requires, at_least=at_least)
         return dataclasses.replace(self, rules=(*self.rules, rule))
+
+    def piece_of(self, part: str) -> str:
+        """The part that holds a part, which may be itself."""
+        while part in self.joined:
+            part = self.joined[part]
+        return part
+
+    def fixed(self, joint: str, why: str) -> "Scene":
+        """The same without a joint: the part that it moved is a piece of what carried it."""
+        gone = self.joint(joint)
+        solids = {name: solid for name, solid in self.solids.items() if name != gone.child}
+        solids[gone.parent] = solids[gone.parent] | self.solids[gone.child]
+        joints = tuple(
+            dataclasses.replace(own, parent=gone.parent) if own.parent == gone.child else own
+            for own in self.joints
+            if own.name != joint
+        )
+        scene = dataclasses.replace(
+            self,
+            solids=solids,
+            joints=joints,
+            rules=tuple(rule for rule in self.rules if joint not in (rule.joint, rule.requires)),
+            joined={**self.joined, gone.child: gone.parent},
+        )
+        return scene.told(f"{gone.child} became a piece of {gone.parent}: {why}")
 
     def ended(self, sweep: Sweep, met: Sequence[int], what: str) -> "Scene":
         """The same with the swept joint's way ended a step before the poses at which it meets

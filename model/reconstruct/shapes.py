@@ -11,7 +11,8 @@ from artgen.core.conventions import VERTEX_DECIMALS
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Ints
 from artgen.geometry.measure import welded
-from artgen.geometry.solid import Solid, slab
+from artgen.geometry.solid import Solid, hull, slab
+from model.reconstruct.cover import OCTANTS
 from model.reconstruct.guess import PartGuess
 
 CRUMB = 0.02
@@ -26,6 +27,13 @@ SMALLEST = 2e-14
 """m2; twice what validators ask of a triangle."""
 LEAST_SIDE = 0.002
 """m; a predicted box is not thinner."""
+ROUND = 0.4
+"""Radius of a rounded box's edges as a share of half its shortest side."""
+TURNS = np.linspace(0.0, np.pi / 2.0, 4)
+ROUNDING = np.array(
+    [[np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)] for u in TURNS for v in TURNS]
+)
+"""Points of an eighth of a ball."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -101,6 +109,15 @@ def predicted_box(guess: PartGuess) -> Solid:
     middle = guess.box.mean(axis=0)
     half = np.maximum(guess.box[1] - guess.box[0], LEAST_SIDE) / 2.0
     return slab(middle - half, middle + half)
+
+
+def rounded_box(guess: PartGuess) -> Solid:
+    """The box of the heads with round edges."""
+    middle = guess.box.mean(axis=0)
+    half = np.maximum(guess.box[1] - guess.box[0], LEAST_SIDE) / 2.0
+    edge = ROUND * float(half.min())
+    corners = OCTANTS[:, None, :] * (half - edge + edge * ROUNDING[None])
+    return hull(middle + corners.reshape(-1, 3))
 
 
 def mended(solid: Solid, tolerance: float) -> Solid:
