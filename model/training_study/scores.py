@@ -13,6 +13,7 @@ from model.evaluation.network_run import NetworkRun, run
 from model.evaluation.score import Protocol
 
 SCHEMA = "artgen-training-score/1"
+FILE = "score.json"
 
 ByObject = Mapping[str, float]
 """Object to the mean of the values that it brings."""
@@ -40,8 +41,7 @@ class Score:
 
 def scored(asked: NetworkRun, protocol: Protocol, folder: Path) -> Score:
     """Judge a network, or read what was judged before: `score.json` and a record an object."""
-    path, key = folder / "score.json", _key(asked, protocol)
-    if found := _kept(path, key):
+    if found := kept_score(asked, protocol, folder):
         return found
     records = run(asked, protocol, folder / "objects")
     by_metric: dict[str, dict[str, float]] = {}
@@ -54,8 +54,18 @@ def scored(asked: NetworkRun, protocol: Protocol, folder: Path) -> Score:
         objects=len(records),
         failures={r.name: r.failure for r in records if r.failure is not None},
     )
-    write_json(path, {"schema": SCHEMA, "key": key, "score": score})
+    body = {"schema": SCHEMA, "key": _key(asked, protocol), "score": score}
+    write_json(folder / FILE, body)
     return score
+
+
+def kept_score(asked: NetworkRun, protocol: Protocol, folder: Path) -> Score | None:
+    """What was judged before, where nothing that it depends on has changed."""
+    try:
+        found = json.loads((folder / FILE).read_text(encoding="utf-8"))
+        return Score(**found["score"]) if found["key"] == _key(asked, protocol) else None
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
 
 
 def _key(asked: NetworkRun, protocol: Protocol) -> str:
@@ -67,11 +77,3 @@ def _key(asked: NetworkRun, protocol: Protocol) -> str:
     }
     stated = {**plain(asked), **hashes}
     return content_hash([SCHEMA, stated, protocol])
-
-
-def _kept(path: Path, key: str) -> Score | None:
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        return Score(**found["score"]) if found["key"] == key else None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None

@@ -1,0 +1,61 @@
+"""How the networks of a study are judged: the same held-out objects, the same options."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from model.evaluation.network_run import NetworkRun
+from model.evaluation.score import Protocol
+from model.training_study.scores import Score, kept_score, scored
+
+POINTS = 2_000
+"""Over a surface; paired differences need fewer than published figures."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judge:
+    """Who judges.
+
+    Attributes:
+        truth: library, or folder of shards, of objects that nobody learned from.
+        count: of them at most.
+        resolution, samples, mask_pixels: of surfaces, images and parts' masks, for networks that
+            make shapes.
+    """
+
+    truth: Path
+    count: int
+    resolution: int = 24
+    samples: int = 24
+    mask_pixels: int = 48
+
+    def score(self, who: str, folder: Path, *, shapes: bool, train: Path | None = None) -> Score:
+        """What a network file, or a baseline that learns from `train`, is worth."""
+        return scored(self._asked(who, shapes, train), self._protocol(shapes), folder)
+
+    def kept(
+        self, who: str, folder: Path, *, shapes: bool, train: Path | None = None
+    ) -> Score | None:
+        """The same, where it was judged before."""
+        if train is None and not Path(who).exists():
+            return None
+        return kept_score(self._asked(who, shapes, train), self._protocol(shapes), folder)
+
+    def _asked(self, who: str, shapes: bool, train: Path | None) -> NetworkRun:
+        return NetworkRun(
+            predictions=who,
+            truth=self.truth,
+            train=train,
+            split=None,
+            count=self.count,
+            states=2,
+            views=2,
+            pixels=48,
+            counts=False,
+            resolution=self.resolution if shapes else 0,
+            samples=self.samples if shapes else 0,
+            gated=False,
+        )
+
+    def _protocol(self, shapes: bool) -> Protocol:
+        pixels = self.mask_pixels if shapes else 0
+        return Protocol(points=POINTS, part_points=POINTS, mask_pixels=pixels)
