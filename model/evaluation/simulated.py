@@ -14,10 +14,9 @@ from artgen.validate.bounds import shipped_bounds
 from artgen.validate.subject import Source
 from artgen.validate.urdf_subject import UrdfSubject
 from model.evaluation.gates import Gates, subject_gates
-from model.extract import part_meshes
 from model.prediction import Prediction
 from model.reconstruct.assemble import Wishes, assemble
-from model.reconstruct.guess import Surface, object_guess
+from model.reconstruct.surfaces import field_guess
 
 
 def prediction_gates(prediction: Prediction, *, radius: float, resolution: int) -> Gates:
@@ -28,9 +27,8 @@ def prediction_gates(prediction: Prediction, *, radius: float, resolution: int) 
         resolution: of marching cubes; 0 stands boxes for parts, as for a network without planes.
     """
     try:
-        guess = object_guess(
-            prediction.articulation, 0, _surfaces(prediction, radius, resolution), radius=radius
-        )
+        field = None if prediction.planes_BP6CHW is None else prediction.field()
+        guess = field_guess(field, prediction.articulation, 0, resolution=resolution, radius=radius)
         made = assemble(guess, Wishes()).object
     except ArtgenError as error:
         return Gates(
@@ -63,16 +61,3 @@ class AssembledSubject(UrdfSubject):
     def passages(self) -> tuple[Precondition, ...]:
         """The same."""
         return self.waits
-
-
-def _surfaces(prediction: Prediction, radius: float, resolution: int) -> dict[int, Surface]:
-    if prediction.planes_BP6CHW is None or not resolution:
-        return {}
-    found = part_meshes(
-        prediction.field(), prediction.articulation, resolution=resolution, radius=radius
-    )
-    return {
-        own.slot: (own.vertices, own.faces, own.rgb.astype(float))
-        for own in found
-        if not own.from_box
-    }

@@ -6,7 +6,7 @@ the rest, and the colors become one image on its atlas.
 """
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +24,7 @@ from artgen.articulation.types import (
     DraftPart,
     Joint,
     Limit,
+    State,
     Vector,
 )
 from artgen.core.errors import ModelError
@@ -34,14 +35,15 @@ from artgen.geometry.solid import Solid
 from artgen.textures.images import Image, TextureSet
 from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways, made_sound
 from model.reconstruct.contact import contact_pieces
-from model.reconstruct.guess import ObjectGuess
-from model.reconstruct.joints import CleanJoint, clean_joint, parents_first, within_rails
+from model.reconstruct.guess import ColorAt, ObjectGuess, PartGuess
+from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
 from model.reconstruct.physics import DENSITY, LEAST, forces, weights
 from model.reconstruct.proof import proven
 from model.reconstruct.scene import Scene
+from model.reconstruct.seating import seated
 from model.reconstruct.sense import sensible
 from model.reconstruct.shapes import shape_of
-from model.reconstruct.skin import ColorAt, PaintOver, colored, nearest_color
+from model.reconstruct.skin import PaintOver, colored, moved_color, nearest_part
 
 CATEGORY = "reconstructed"
 CLEARANCE = 1e-3
@@ -52,6 +54,11 @@ MOST_TRIANGLES = 6000
 """Of all parts before they are cut; 15,000 in a bundle weigh 3 MB."""
 MOST_HULLS = 19
 """Files that a bundle has room for beside its meshes: 30, of which 10 are others, one is spare."""
+NEAR = 0.02
+"""Of the radius: a point nearer to a predicted surface than this has the field's own color."""
+Overlay = Callable[[ArticulatedObject, Floats, Sequence[State]], PaintOver]
+"""A finished object without colors, its shift and the images' states, to what is painted over it.
+"""
 BARE = SurfaceSpec(name="skin", recipe="plain")
 
 
@@ -100,16 +107,18 @@ class Assembled:
             raise ModelError("a reconstruction has no color image; color it first")
         return self.images.color
 
-    def painted(self, over: PaintOver) -> "Assembled":
-        """The same with other colors over the predicted ones."""
-        whole, images = colored(self.object, self.colors, over=over)
-        return dataclasses.replace(self, object=whole, images=images)
-
 
 def assemble(
-    guess: ObjectGuess, wishes: Wishes, *, provenance: Mapping[str, object] | None = None
+    guess: ObjectGuess,
+    wishes: Wishes,
+    *,
+    provenance: Mapping[str, object] | None = None,
+    overlay: Overlay | None = None,
 ) -> Assembled:
     """The object that was predicted, disjoint, weighed and colored.
+
+    Args:
+        overlay: makes what is painted over the predicted colors; None leaves those.
 
     Raises:
         ModelError: the base is missing. GeometryError: a part vanishes inside others.
@@ -118,7 +127,6 @@ def assemble(
         raise ModelError("the prediction has no base in slot 0; nothing can hang on it")
     joints = parents_first([clean_joint(joint) for joint in guess.joints])
     solids, told = _solids(guess, {joint.guess.slot: joint.guess.parent for joint in joints})
-    joints = [within_rails(joint, solids[joint.guess.slot].extent) for joint in joints]
     names = _names(solids)
     for joint in joints:
         told += [f"{names[joint.guess.slot]}: {change}" for change in joint.changes]
@@ -128,7 +136,8 @@ def assemble(
         changes=tuple(told),
     )
     cutter = Cutter(wishes.clearance)
-    scene = proven(made_sound(clear_ways(apart_at_rest(scene, cutter), cutter)))
+    scene = seated(apart_at_rest(scene, cutter))
+    scene = proven(seated(made_sound(clear_ways(scene, cutter))))
     draft = _draft(scene, wishes)
     placed = canonicalize(draft)
     shift = part_bounds(placed.parts[0])[0] - part_bounds(draft.parts[0])[0]
@@ -140,14 +149,16 @@ def assemble(
     )
     held = {slot: scene.piece_of(name) for slot, name in names.items()}
     colors = _colors(guess, held, shift)
-    whole, images = colored(bare, colors)
+    states = _states(joints, scene, names)
+    over = None if overlay is None else overlay(bare, shift, states)
+    whole, images = colored(bare, colors, over=over)
     return Assembled(
         object=whole,
         images=images,
         colors=colors,
         names=held,
         shift=shift,
-        states=_states(joints, scene, names),
+        states=states,
         changes=scene.changes,
     )
 
@@ -240,16 +251,11 @@ def _draft(scene: Scene, wishes: Wishes) -> Draft:
 
 def _colors(guess: ObjectGuess, names: Mapping[int, str], shift: Floats) -> dict[str, ColorAt]:
     """Part name to its colors in the object frame; pieces of the base share its name."""
-    found: dict[str, list[tuple[Floats, Floats]]] = {}
+    found: dict[str, list[PartGuess]] = {}
     for part in guess.parts:
-        name = names.get(part.slot, names[0])
-        found.setdefault(name, []).append((part.vertices + shift, part.rgb))
-    return {
-        name: nearest_color(
-            np.concatenate([v for v, _ in own]), np.concatenate([c for _, c in own])
-        )
-        for name, own in found.items()
-    }
+        found.setdefault(names.get(part.slot, names[0]), []).append(part)
+    reach = NEAR * guess.radius
+    return {name: moved_color(nearest_part(own, reach), shift) for name, own in found.items()}
 
 
 def _states(

@@ -62,7 +62,8 @@ def _ball(points: Floats) -> Floats:
 def strokes(obj: ArticulatedObject) -> list[dict[str, float]]:
     """States of a film: each joint opens and closes, what it waits for held open; at last all."""
     joints = [joint for joint in obj.joints if joint.mimic is None]
-    shares = (0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(STROKE) / STROKE)).tolist()
+    opening = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(STROKE // 2 + 1) / STROKE)
+    shares = [*opening.tolist(), *opening[-2:0:-1].tolist()]  # Closing shows the same pictures.
     states: list[dict[str, float]] = []
     for joint in joints[:MOST_STROKES] if len(joints) > 1 else []:
         held = required_state(joint.name, obj.preconditions)
@@ -78,7 +79,13 @@ def articulation(obj: ArticulatedObject, painter: Painter) -> bytes:
     wide = open_state(obj.joints, obj.preconditions, 1.0)
     points = np.concatenate([painter.points({}), painter.points(wide)])
     camera = camera_around(points, FRONT)
-    frames = [over(painted(painter, state, camera), GROUND) for state in strokes(obj)]
+    shown: dict[tuple[tuple[str, float], ...], Bytes] = {}
+    frames = []
+    for state in strokes(obj):
+        key = tuple(sorted((name, q) for name, q in state.items() if q != 0.0))
+        if key not in shown:
+            shown[key] = over(painted(painter, state, camera), GROUND)
+        frames.append(shown[key])
     return gif_bytes(frames, seconds=len(frames) / STROKE * 1.6)
 
 

@@ -4,7 +4,7 @@ Meters and radians; object axes (z up, front -y); zero is the middle of the obje
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +14,8 @@ from artgen.core.mesh import Floats, Ints
 from model.batch import FIXED, PRISMATIC, Articulation
 
 TYPES: Mapping[int, JointType] = {1: "revolute", 2: "prismatic"}
+ColorAt = Callable[[Floats], Floats]
+"""(N, 3) points, m, to (N, 3) sRGB in [0, 1]."""
 GRAY = 0.62
 """sRGB of what no image and no field gives a color."""
 
@@ -28,6 +30,8 @@ class PartGuess:
         faces: (F, 3), counter-clockwise from outside.
         rgb: (V, 3) sRGB in [0, 1].
         box: (2, 3) the box that the heads predict, m; it stands for a part without a surface.
+        shade: its color at any point, m; None where there are those of the vertices alone.
+        found: whether the surface was found in a field that was searched.
     """
 
     slot: int
@@ -35,6 +39,8 @@ class PartGuess:
     faces: Ints
     rgb: Floats
     box: Floats
+    shade: ColorAt | None = None
+    found: bool = True
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

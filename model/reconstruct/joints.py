@@ -112,20 +112,6 @@ def rested(
     return 0.0, upper
 
 
-def within_rails(joint: CleanJoint, extent: Floats) -> CleanJoint:
-    """A slide that goes no further than its part is long, (3,) `extent` m; else it leaves its
-    rails."""
-    length = float(np.abs(joint.axis) @ extent)
-    if joint.guess.type != "prismatic" or joint.upper - joint.lower <= length:
-        return joint
-    share = length / (joint.upper - joint.lower)
-    told = f"its way of {joint.upper:.3g} m was cut to {share * joint.upper:.3g}, as long as it is"
-    lower, upper = share * joint.lower + 0.0, share * joint.upper
-    observed = joint.observed.clip(lower, upper)
-    changes = (*joint.changes, told)
-    return dataclasses.replace(joint, lower=lower, upper=upper, observed=observed, changes=changes)
-
-
 def parents_first(joints: Sequence[CleanJoint]) -> list[CleanJoint]:
     """Joints in an order in which parents come before children; a circle is broken at the base."""
     placed, ordered, waiting = {0}, [], list(joints)

@@ -3,32 +3,35 @@
 import re
 import tempfile
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from artgen.articulation.types import ArticulatedObject, State
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import file_hash, fill_folder_atomically, write_bytes, write_json
+from artgen.core.mesh import Floats
 from artgen.export import write_bundle
 from artgen.textures.library import TextureLibrary
 from artgen.validate import Report, validate_bundle
 from artgen.worker import BlenderWorker
 from model.art_file import load_art
 from model.config import Config
-from model.extract import part_meshes
 from model.infer import predict
 from model.prediction import Prediction
 from model.reconstruct import films
 from model.reconstruct.assemble import Assembled, Wishes, assemble
 from model.reconstruct.capture import Capture, read_capture
 from model.reconstruct.draw import Painter
-from model.reconstruct.guess import Surface, object_guess
 from model.reconstruct.hull import VisualHull, check_cameras
 from model.reconstruct.masks import found_segmenter
 from model.reconstruct.photo import Photo, PhotoColors
 from model.reconstruct.record import record
 from model.reconstruct.rig import read_rig
 from model.reconstruct.sight import Sphere, in_object, network_images, sphere_of
+from model.reconstruct.skin import PaintOver
+from model.reconstruct.surfaces import field_guess
 
 BUNDLE = "bundle"
 TURNTABLE = "turntable.gif"
@@ -103,8 +106,8 @@ STAGES = (
     "network",
     "surfaces",
     "assembly",
-    "films",
     "export",
+    "films",
     "validation",
 )
 
@@ -144,11 +147,13 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
 
     def fill(folder: Path) -> None:
         painter = Painter(made.assembled.object, made.assembled.color)
-        seen = reprojections(made.capture, made.sphere, made.assembled, size=films.SIDE)
+        thumbnail = films.thumbnail(made.assembled.object, painter)
+        with ThreadPoolExecutor(max_workers=1) as aside:  # Blender, too, works beside us.
+            filmed = aside.submit(write_films, folder, made, painter, films_too=order.films)
+            export(folder / BUNDLE, made.assembled, thumbnail)
+            watch.lap("export")
+            seen = filmed.result()
         ious.extend(own.iou for own in seen)
-        if order.films:
-            write_films(folder, made.assembled, painter, seen)
-        watch.lap("films")
         told = record(
             made.prediction,
             made.sphere,
@@ -158,8 +163,7 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
             checkpoint=told_checkpoint(order.checkpoint, made.config),
         )
         write_json(folder / PREDICTION, told)
-        export(folder / BUNDLE, made.assembled, painter)
-        watch.lap("export")
+        watch.lap("films")
         report.append(validate_bundle(folder / BUNDLE))
         write_json(folder / BUNDLE / "report.json", report[0].as_json())
         watch.lap("validation")
@@ -184,14 +188,23 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     watch.lap("images")
     prediction = predict(art, config, images, parts=order.parts)
     watch.lap("network")
-    surfaces = part_surfaces(prediction, sphere, resolution=order.resolution)
+    field = None if prediction.planes_BP6CHW is None else prediction.field()
+    guess = field_guess(
+        field,
+        prediction.articulation,
+        0,
+        resolution=order.resolution,
+        radius=sphere.radius_m,
+    )
     watch.lap("surfaces")
-    guess = object_guess(prediction.articulation, 0, surfaces, radius=sphere.radius_m)
     provenance = {"source": "reconstruction", "checkpoint": file_hash(order.checkpoint)}
-    assembled = assemble(guess, order.wishes, provenance=provenance)
-    if order.photos:
-        shown = photos(capture, sphere, assembled)
-        assembled = assembled.painted(PhotoColors(assembled.object, shown))
+
+    def overlay(obj: ArticulatedObject, shift: Floats, states: Sequence[State]) -> PaintOver:
+        return PhotoColors(obj, photos(capture, sphere, shift, states))
+
+    assembled = assemble(
+        guess, order.wishes, provenance=provenance, overlay=overlay if order.photos else None
+    )
     watch.lap("assembly")
     return Made(
         capture=capture, sphere=sphere, config=config, prediction=prediction, assembled=assembled
@@ -207,35 +220,22 @@ def seen_object(order: Order) -> tuple[Capture, Sphere]:
     return capture, sphere_of(rig, hull)
 
 
-def part_surfaces(prediction: Prediction, sphere: Sphere, *, resolution: int) -> dict[int, Surface]:
-    """Slot to its colored surface in m; empty where the network has no planes, and without slots
-    whose field holds no surface."""
-    if prediction.planes_BP6CHW is None:
-        return {}
-    meshes = part_meshes(
-        prediction.field(),
-        prediction.articulation,
-        resolution=resolution,
-        radius=sphere.radius_m,
-    )
-    return {
-        mesh.slot: (mesh.vertices, mesh.faces, mesh.rgb.astype(float))
-        for mesh in meshes
-        if not mesh.from_box
-    }
+def photos(capture: Capture, sphere: Sphere, shift: Floats, states: Sequence[State]) -> list[Photo]:
+    """Every input image with the state that the network saw in it.
 
-
-def photos(capture: Capture, sphere: Sphere, assembled: Assembled) -> list[Photo]:
-    """Every input image with the state that the network saw in it."""
-    states, views = capture.rgba.shape[:2]
+    Args:
+        shift: (3,) m, from the sphere's middle to the object frame.
+        states: q of every joint in each state of the images.
+    """
+    count, views = capture.rgba.shape[:2]
     return [
         Photo(
             rgba=capture.rgba[t, v],
             intrinsics=capture.intrinsics[t, v],
-            camera_from_object=in_object(capture.camera_from_world[t, v], sphere, assembled.shift),
-            state=assembled.states[t] if t < len(assembled.states) else {},
+            camera_from_object=in_object(capture.camera_from_world[t, v], sphere, shift),
+            state=states[t] if t < len(states) else {},
         )
-        for t in range(states)
+        for t in range(count)
         for v in range(views)
     ]
 
@@ -271,15 +271,19 @@ def reprojections(
 
 
 def write_films(
-    folder: Path, assembled: Assembled, painter: Painter, seen: list[films.Reprojection]
-) -> None:
-    """Turntable, articulation, and inputs beside reprojections."""
-    write_bytes(folder / TURNTABLE, films.turntable(assembled.object, painter))
-    write_bytes(folder / ARTICULATION, films.articulation(assembled.object, painter))
-    write_bytes(folder / REPROJECTION, films.side_by_side(seen))
+    folder: Path, made: Made, painter: Painter, *, films_too: bool
+) -> list[films.Reprojection]:
+    """Turntable, articulation, and inputs beside reprojections, which are returned."""
+    seen = reprojections(made.capture, made.sphere, made.assembled, size=films.SIDE)
+    if films_too:
+        obj = made.assembled.object
+        write_bytes(folder / TURNTABLE, films.turntable(obj, painter))
+        write_bytes(folder / ARTICULATION, films.articulation(obj, painter))
+        write_bytes(folder / REPROJECTION, films.side_by_side(seen))
+    return seen
 
 
-def export(folder: Path, assembled: Assembled, painter: Painter) -> None:
+def export(folder: Path, assembled: Assembled, thumbnail: bytes) -> None:
     """The bundle, by the same exporters as every asset; its picture is ours."""
     folder.mkdir()
     with tempfile.TemporaryDirectory() as scratch:
@@ -291,5 +295,5 @@ def export(folder: Path, assembled: Assembled, painter: Painter) -> None:
                 folder,
                 library=library,
                 worker=worker,
-                thumbnail=films.thumbnail(assembled.object, painter),
+                thumbnail=thumbnail,
             )

@@ -76,6 +76,11 @@ class Scene:
         """The same with another shape of one part."""
         return dataclasses.replace(self, solids={**self.solids, part: solid})
 
+    def with_joint(self, joint: Joint) -> "Scene":
+        """The same with another joint of that name."""
+        joints = tuple(joint if own.name == joint.name else own for own in self.joints)
+        return dataclasses.replace(self, joints=joints)
+
     def with_rule(self, joint: str, requires: str, at_least: float) -> "Scene":
         """The same where one joint waits for another."""
         rule = Precondition(joint=joint, requires=requires, at_least=at_least)
@@ -123,9 +128,7 @@ class Scene:
             return self.told(f"{joint.name} cannot leave rest for {what}; its way was left as is")
         limit = Limit(lower=float(lower) + 0.0, upper=float(upper))
         kind = "revolute" if joint.type == "continuous" else joint.type
-        ended = dataclasses.replace(joint, type=kind, limit=limit)
-        joints = tuple(ended if own.name == joint.name else own for own in self.joints)
-        scene = dataclasses.replace(self, joints=joints)
+        scene = self.with_joint(dataclasses.replace(joint, type=kind, limit=limit))
         return scene.told(f"{joint.name} ends at {upper:.3g}, where it meets {what}")
 
 

@@ -17,6 +17,9 @@ from model.reconstruct.guess import PartGuess
 
 CRUMB = 0.02
 """Pieces below this share of a part's largest piece are floaters of the field."""
+MOST_EMPTY = 0.3
+"""Share of the longest side of its predicted box that a surface spans at least; a smaller one is a
+crumb of the field."""
 MOST_LOST = 0.05
 """Share of its volume that a part may gain or lose by one round of merging triangles."""
 ROUNDS = (1e-4, 2e-4, 4e-4, 8e-4)
@@ -48,6 +51,9 @@ def shape_of(guess: PartGuess, *, tolerance: float, triangles: int) -> Shape:
     """The part as a solid whose surface lies within `tolerance` m of the predicted one, or within
     as much more as brings it down to some `triangles`."""
     changes: list[str] = []
+    if not guess.found:
+        changes.append("the field holds no surface; a rounded box of the predicted size stands")
+        return Shape(solid=rounded_box(guess), changes=tuple(changes))
     manifold = _closed(guess, guess.faces, changes)
     if manifold is None:
         changes.append("its predicted box stands for it")
@@ -55,9 +61,15 @@ def shape_of(guess: PartGuess, *, tolerance: float, triangles: int) -> Shape:
     if manifold.volume() < 0.0:
         changes.append("its surface was turned inside out")
         manifold = _closed(guess, guess.faces[:, ::-1], changes) or manifold
-    return Shape(
-        solid=_tidy(Solid(manifold), tolerance, triangles, changes), changes=tuple(changes)
-    )
+    solid = _tidy(Solid(manifold), tolerance, triangles, changes)
+    longest = float((guess.box[1] - guess.box[0]).max())
+    if float(solid.extent.max()) < MOST_EMPTY * longest:
+        changes.append(
+            f"its surface spans {solid.extent.max():.2g} m of a box of {longest:.2g} m; the box "
+            "stands for it"
+        )
+        return Shape(solid=predicted_box(guess), changes=tuple(changes))
+    return Shape(solid=solid, changes=tuple(changes))
 
 
 def _closed(guess: PartGuess, faces: Ints, changes: list[str]) -> m3.Manifold | None:

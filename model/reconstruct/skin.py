@@ -1,7 +1,7 @@
 """The predicted colors as one image on the atlas: every texel asks the nearest predicted points."""
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -13,10 +13,7 @@ from artgen.textures.atlas import LINEAR, framed
 from artgen.textures.images import Image, TextureSet
 from artgen.textures.picture import picture_surface
 from artgen.textures.raster import touched_texels
-from model.reconstruct.guess import GRAY
-
-ColorAt = Callable[[Floats], Floats]
-"""(N, 3) points, m, to (N, 3) sRGB in [0, 1]."""
+from model.reconstruct.guess import GRAY, ColorAt, PartGuess
 
 PaintOver = Callable[[str, Floats, Floats, Floats], Floats]
 """Part, (N, 3) points at rest, m, their unit normals and colors so far, to (N, 3) colors."""
@@ -41,6 +38,51 @@ def nearest_color(vertices: Floats, rgb: Floats) -> ColorAt:
         return np.asarray((weight[..., None] * rgb[index]).sum(1) / weight.sum(1, keepdims=True))
 
     return color_at
+
+
+def part_color(part: PartGuess, reach: float) -> ColorAt:
+    """The color of a predicted part: that of the field, each point for itself, and where nothing of
+    the surface is within `reach` m, as in a cut, that of the nearest of the surface.
+    """
+    near = nearest_color(part.vertices, part.rgb)
+    shade = part.shade
+    if shade is None:
+        return near
+    if not part.found:
+        return shade
+    tree = cKDTree(part.vertices)
+
+    def color_at(points: Floats) -> Floats:
+        own = np.isfinite(tree.query(points, distance_upper_bound=reach)[0])
+        rgb = near(points)
+        if own.any():
+            rgb[own] = shade(points[own])
+        return rgb
+
+    return color_at
+
+
+def nearest_part(parts: Sequence[PartGuess], reach: float) -> ColorAt:
+    """The color of whichever of some parts is nearest."""
+    colors = [part_color(part, reach) for part in parts]
+    if len(parts) == 1:
+        return colors[0]
+    trees = [cKDTree(part.vertices) for part in parts]
+
+    def color_at(points: Floats) -> Floats:
+        nearest = np.argmin([tree.query(points)[0] for tree in trees], axis=0)
+        rgb = np.zeros((len(points), 3))
+        for k, color in enumerate(colors):
+            if (nearest == k).any():
+                rgb[nearest == k] = color(points[nearest == k])
+        return rgb
+
+    return color_at
+
+
+def moved_color(color: ColorAt, shift: Floats) -> ColorAt:
+    """The color of a part that was moved by a shift, m."""
+    return lambda points: color(points - shift)
 
 
 def colored(

@@ -38,12 +38,11 @@ from model.data.library import packed, read_library
 from model.data.soup_source import SoupSource
 from model.evaluation.gates import Gates, gates
 from model.evaluation.held_out import HeldOut, held_out
-from model.extract import part_meshes
 from model.field import Field
 from model.infer import predict
 from model.recipes import RECIPES
 from model.reconstruct.assemble import Assembled, Wishes, assemble
-from model.reconstruct.guess import object_guess
+from model.reconstruct.surfaces import field_guess
 from tests.bench.known_fields import disturbed, known_field
 
 NOISES = (0.0, 0.01, 0.03, 0.1, 0.3)
@@ -172,13 +171,7 @@ def judged(case: Case, worker: BlenderWorker, scratch: Path) -> Row:
 
 def put_together(case: Case) -> Assembled:
     """As `artgen reconstruct` does, without photographs."""
-    meshes = part_meshes(case.field, case.articulation, resolution=RESOLUTION, radius=case.radius)
-    surfaces = {
-        own.slot: (own.vertices, own.faces, own.rgb.astype(float))
-        for own in meshes
-        if not own.from_box
-    }
-    guess = object_guess(case.articulation, 0, surfaces, radius=case.radius)
+    guess = field_guess(case.field, case.articulation, 0, resolution=RESOLUTION, radius=case.radius)
     return assemble(guess, Wishes())
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from model.reconstruct.joints import LEAST_TURN, clean_joint, parents_first, within_rails
+from model.reconstruct.joints import LEAST_TURN, clean_joint, parents_first
 from tests.unit.model.reconstruct.perfect import joint
 
 ANGLES = st.floats(-2.0 * math.pi, 2.0 * math.pi)
@@ -57,16 +57,6 @@ def test_an_axis_near_a_coordinate_axis_is_put_on_it(off: float, kept: bool) -> 
 def test_a_full_turn_has_no_ends(upper: float, endless: bool) -> None:
     assert clean_joint(joint(1, "revolute", axis=(0.0, 0.0, 1.0), upper=upper)).endless == endless
     assert not clean_joint(joint(1, "prismatic", axis=(0.0, 0.0, 1.0), upper=upper)).endless
-
-
-def test_a_slide_goes_no_further_than_its_part_is_long() -> None:
-    found = clean_joint(
-        joint(1, "prismatic", axis=(0.0, -1.0, 0.0), upper=0.8, observed=(0.1, 0.7))
-    )
-    short = within_rails(found, np.array([0.4, 0.5, 0.2]))
-    assert (short.lower, short.upper) == (0.0, 0.5)
-    assert short.observed.tolist() == [0.1, 0.5]
-    assert within_rails(found, np.array([0.4, 0.9, 0.2])) is found
 
 
 def test_an_axis_without_direction_is_told() -> None:

@@ -10,6 +10,7 @@ from model.reconstruct.capture import Capture
 from model.reconstruct.draw import Painter
 from model.reconstruct.photo import DOUBT, PhotoColors
 from model.reconstruct.run import photos
+from model.reconstruct.skin import colored
 from tests.unit.model.reconstruct.perfect import COLORS
 from tests.unit.model.reconstruct.test_sight import sphere
 
@@ -22,9 +23,10 @@ def gray(points: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
 
 def painted(perfect: Assembled, capture: Capture) -> Assembled:
     """The cabinet, predicted gray, in the colors of its photographs."""
-    blank = dataclasses.replace(perfect, colors={name: gray for name in perfect.colors})
-    shown = photos(capture, sphere(perfect), perfect)
-    return blank.painted(PhotoColors(perfect.object, shown))
+    shown = photos(capture, sphere(perfect), perfect.shift, perfect.states)
+    over = PhotoColors(perfect.object, shown)
+    whole, images = colored(perfect.object, {name: gray for name in perfect.colors}, over=over)
+    return dataclasses.replace(perfect, object=whole, images=images)
 
 
 def test_faces_that_a_camera_sees_take_its_color(perfect: Assembled, capture: Capture) -> None:
@@ -45,7 +47,9 @@ def test_what_no_camera_sees_keeps_the_predicted_color(
     perfect: Assembled, capture: Capture
 ) -> None:
     """The bottom of the base looks down, and all cameras stand above."""
-    paint = PhotoColors(perfect.object, photos(capture, sphere(perfect), perfect))
+    paint = PhotoColors(
+        perfect.object, photos(capture, sphere(perfect), perfect.shift, perfect.states)
+    )
     points = np.array([[0.0, 0.0, 0.0], [0.1, 0.1, 0.0]])
     normals = np.tile([0.0, 0.0, -1.0], (2, 1))
     assert np.array_equal(paint("base", points, normals, gray(points)), gray(points))
@@ -53,7 +57,9 @@ def test_what_no_camera_sees_keeps_the_predicted_color(
 
 def test_hidden_faces_are_not_painted_through(perfect: Assembled, capture: Capture) -> None:
     """The inner face of the base's back wall, behind the drawer, faces the front cameras."""
-    paint = PhotoColors(perfect.object, photos(capture, sphere(perfect), perfect))
+    paint = PhotoColors(
+        perfect.object, photos(capture, sphere(perfect), perfect.shift, perfect.states)
+    )
     low, high = perfect.object.parts[2].mesh.bounds
     hidden = np.array([[0.0, high[1] + 0.02, (low[2] + high[2]) / 2.0 - 0.06]])
     found = paint("base", hidden, np.array([[0.0, -1.0, 0.0]]), gray(hidden))
