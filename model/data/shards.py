@@ -63,6 +63,11 @@ class ShardSource:
     def __len__(self) -> int:
         return len(self.positions)
 
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """Asset id of every position."""
+        return tuple(self._dataset.ids[k] for k in self.positions)
+
     def order(self, seed: int) -> Permutations:
         """A permutation for every epoch."""
         return Permutations(len(self), seed=seed)

@@ -19,6 +19,7 @@ from model.training_study.objects import HELD_OUT, training_path, write_objects
 from model.training_study.pairs import Difference, difference
 from model.training_study.rows import Known, claim_rows, score_rows
 from model.training_study.runs import known, run_cells, share_of
+from model.training_study.tell import tell
 
 DRAWN = (DGIOU, DCDIST, CENTER, TYPE, PSNR)
 """Metrics of the plot."""
@@ -45,13 +46,9 @@ def run(command: Ablations) -> Path:
                 *(ours, command.out / CELLS, judge),
                 device=command.device,
                 show=progress,
-                tell=_tell,
+                tell=tell,
             )
     return write_results(command, course, everything, judge)
-
-
-def _tell(line: str) -> None:
-    print(line, flush=True)  # noqa: T201
 
 
 def course_of(command: Ablations) -> Course:

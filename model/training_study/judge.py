@@ -3,12 +3,16 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from artgen.dataset.split import Split
 from model.evaluation.network_run import NetworkRun
 from model.evaluation.score import Protocol
 from model.training_study.scores import Score, kept_score, scored
 
 POINTS = 2_000
 """Over a surface; paired differences need fewer than published figures."""
+
+ALL = 1_000_000
+"""Training objects of a baseline at most."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,12 +22,17 @@ class Judge:
     Attributes:
         truth: library, or folder of shards, of objects that nobody learned from.
         count: of them at most.
+        split: of the truth; None takes all.
+        pose_noise_deg, pose_noise: by which stated poses are off.
         resolution, samples, mask_pixels: of surfaces, images and parts' masks, for networks that
             make shapes.
     """
 
     truth: Path
     count: int
+    split: Split | None = None
+    pose_noise_deg: float = 0.0
+    pose_noise: float = 0.0
     resolution: int = 24
     samples: int = 24
     mask_pixels: int = 48
@@ -45,7 +54,7 @@ class Judge:
             predictions=who,
             truth=self.truth,
             train=train,
-            split=None,
+            split=self.split,
             count=self.count,
             states=2,
             views=2,
@@ -54,6 +63,9 @@ class Judge:
             resolution=self.resolution if shapes else 0,
             samples=self.samples if shapes else 0,
             gated=False,
+            train_count=ALL,
+            pose_noise_deg=self.pose_noise_deg,
+            pose_noise=self.pose_noise,
         )
 
     def _protocol(self, shapes: bool) -> Protocol:

@@ -18,13 +18,22 @@ def training_path(folder: Path, count: int) -> Path:
 
 
 def write_objects(
-    library: Path, folder: Path, *, counts: Sequence[int], held_out: int, slots: int
+    library: Path,
+    folder: Path,
+    *,
+    counts: Sequence[int],
+    held_out: int,
+    slots: int,
+    at_most: bool = False,
 ) -> None:
     """Write `train_COUNT.npz` for every count and `held_out.npz`, unless they are there.
 
     Training sets come of the split train, each within the next larger one; the held-out set of the
     split test. All hold the categories in turn, and of each category the objects that a draw by
     their ids puts first.
+
+    Args:
+        at_most: whether fewer will do where the library has no more.
 
     Raises:
         UsageError: the library has too few objects.
@@ -39,7 +48,7 @@ def write_objects(
     whole = read_library(library)
     for path, split, count in missing:
         ranked = ranked_positions(whole, split, slots)
-        if len(ranked) < count:
+        if not ranked or (len(ranked) < count and not at_most):
             raise UsageError(
                 f"{library}: {len(ranked)} objects of the split {split} have at most {slots} "
                 f"parts, {count} are asked for; make a larger library (artgen train-data) or ask "

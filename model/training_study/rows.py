@@ -1,6 +1,6 @@
 """Rows of the tables that a study writes."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from artgen.core.stream import Stream
@@ -117,14 +117,15 @@ def _agreeing(found: Difference) -> int:
     return sum((mean > 0.0) == (found.mean > 0.0) for mean in found.by_seed.values())
 
 
-def told(metric: str, value: float | None) -> str:
+def told(metric: str, difference: float | None) -> str:
+    """A difference with its sign, with as many digits as its unit deserves."""
+    return "-" if difference is None else f"{difference:+.{_digits(metric) + 1}f}"
+
+
+def plainly(metric: str, value: float) -> str:
     """A figure with as many digits as its unit deserves."""
-    if value is None:
-        return "-"
-    degrees = METRICS[metric].unit.startswith(("deg", "dB"))
-    return f"{value:+.2f}" if degrees else f"{value:+.4f}"
+    return f"{value:.{_digits(metric)}f}"
 
 
-def arms_of(rows: Sequence[ClaimRow]) -> list[tuple[str, str]]:
-    """Comparisons in the order of their rows."""
-    return list(dict.fromkeys((row.arm, row.against) for row in rows))
+def _digits(metric: str) -> int:
+    return 1 if METRICS[metric].unit.startswith(("deg", "dB")) else 3
