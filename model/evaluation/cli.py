@@ -98,7 +98,7 @@ class Evaluate:
     split: Literal["train", "val", "test", "all"] = "test"
     """Which objects of a library or of shards networks and baselines are judged on."""
     count: int = 100
-    """At most so many held-out objects."""
+    """At most so many held-out objects, spread evenly over all of them."""
     train_count: int = 1000
     """At most so many training objects of a baseline."""
     count_parts: bool = False
@@ -117,6 +117,8 @@ class Evaluate:
     """Views a state that a baseline is shown; a network states its own."""
     pixels: int = 48
     """Side of the images that a baseline is shown."""
+    azimuth_deg: float = 180.0
+    """Largest angle between a baseline's cameras and the front; a network states its own."""
     fit_steps: int = 600
     """Updates of the baseline fit."""
 
@@ -180,6 +182,7 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
         "states": 2,
         "views": command.views,
         "pixels": command.pixels,
+        "azimuth_deg": command.azimuth_deg,
         "counts": command.count_parts,
         "resolution": command.resolution,
         "samples": command.samples,

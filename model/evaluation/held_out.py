@@ -76,14 +76,17 @@ def held_out_config(config: DataConfig, *, extra: bool) -> DataConfig:
 def held_out(
     source: Source[Any], config: DataConfig, *, count: int, seed: int = 0
 ) -> Iterator[HeldOut]:
-    """The first `count` objects of a source, each in a scene that its position and `seed` decide.
+    """At most `count` objects, spread evenly over a source, each in a scene of its own.
+
+    The scene follows from the object's position and `seed`.
 
     Args:
         config: of the network: `states` and `views` are those that it sees.
     """
     extra = isinstance(source, SoupSource)
     wide = held_out_config(config, extra=extra)
-    for position in range(min(count, len(source))):
+    total = min(count, len(source))
+    for position in (k * len(source) // total for k in range(total)):
         stream = Stream(seed, "evaluation", "held_out", position)
         batch = source.batch([source.plan(position, wide, stream)], wide, CPU)
         soup = source.library[source.positions[position]] if extra else None  # type: ignore[attr-defined]

@@ -53,7 +53,7 @@ class NetworkRun:
         train: the same for baselines to learn from.
         split: of the truth; None takes all. Baselines learn from `train`.
         count: objects at most.
-        states, views, pixels: what baselines are shown; a network states its own.
+        states, views, pixels, azimuth_deg: what baselines are shown; a network states its own.
         counts, resolution, samples, gated: as `ArtPredictor`.
         lpips: folder of its weights, or None.
         fit_steps: updates of `fit`.
@@ -80,6 +80,7 @@ class NetworkRun:
     pose_noise_deg: float = 0.0
     pose_noise: float = 0.0
     blind: bool = False
+    azimuth_deg: float = 180.0
 
     @property
     def noisy(self) -> bool:
@@ -157,13 +158,13 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
         return own, shown_to(config, asked)
     if asked.predictions == "fit":
         steps = dataclasses.replace(FitConfig(), steps=asked.fit_steps)
-        return FitPredictor(steps), baseline_data(asked.states, asked.views, asked.pixels)
+        return FitPredictor(steps), baseline_data(asked)
     if asked.train is None:
         raise UsageError(
             f"{asked.predictions} learns from training objects: name a library or shards by --train"
         )
     blind = asked.predictions == "mean"
-    data = baseline_data(asked.states, *((1, LEAST_PX) if blind else (asked.views, asked.pixels)))
+    data = baseline_data(dataclasses.replace(asked, views=1, pixels=LEAST_PX) if blind else asked)
     source = opened(asked.train, "train", data.slots)
     if blind:
         items = training_items(source, data, asked.train_count)
@@ -178,10 +179,16 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
     return NeighborPredictor(neighbor, encoder), data
 
 
-def baseline_data(states: int, views: int, pixels: int) -> DataConfig:
+def baseline_data(asked: NetworkRun) -> DataConfig:
     """What a baseline is shown."""
-    wide = pixels + pixels // 4
-    return DataConfig(states=states, views=views, input_px=pixels, render_px=wide, target_px=pixels)
+    return DataConfig(
+        states=asked.states,
+        views=asked.views,
+        input_px=asked.pixels,
+        render_px=asked.pixels + asked.pixels // 4,
+        target_px=asked.pixels,
+        azimuth_deg=asked.azimuth_deg,
+    )
 
 
 def shown_to(config: Config, asked: NetworkRun) -> DataConfig:

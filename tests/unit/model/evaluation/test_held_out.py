@@ -57,6 +57,14 @@ def test_the_same_scene_again(item: HeldOut) -> None:
     assert not torch.equal(other.shown.images.rgb_BTV3HW, item.shown.images.rgb_BTV3HW)
 
 
+def test_few_objects_are_spread_over_all() -> None:
+    """The last of two lies in the second half, so that no category at the end is missed."""
+    source = SoupSource(library(), slots=6)
+    every = [item.name for item in held_out(source, SHOWN, count=99)]
+    first, last = (item.name for item in held_out(source, SHOWN, count=2))
+    assert [first, last] == [every[0], every[len(every) // 2]]
+
+
 def test_objects_that_do_not_fit_are_left_out() -> None:
     names = [item.name for item in held_out(SoupSource(library(), slots=6), SHOWN, count=99)]
     assert len(names) == len(SoupSource(library(), slots=6))
