@@ -1,5 +1,6 @@
 """Images of one object with their cameras: T states by V views, foreground in alpha, all alike."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,10 +34,9 @@ class Capture:
     camera_from_world: Floats
     states: tuple[int, ...]
 
-    def thinned(self, views: int) -> "Capture":
-        """At most so many views a state, evenly spread over those there are."""
-        count = self.rgba.shape[1]
-        chosen = sorted({int(k) for k in np.linspace(0, count - 1, min(views, count)).round()})
+    def only(self, views: Sequence[int]) -> "Capture":
+        """Some views of each state."""
+        chosen = list(views)
         return Capture(
             files=tuple(tuple(row[k] for k in chosen) for row in self.files),
             rgba=self.rgba[:, chosen],

@@ -23,6 +23,7 @@ def record(
     seen: Sequence[Reprojection],
     *,
     states: Sequence[int],
+    views: Sequence[int],
     checkpoint: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Lengths in radii and motions in shares of a turn or of the diameter, as the network states
@@ -58,6 +59,7 @@ def record(
             "object_from_center_m": _rounded(assembled.shift.tolist()),
         },
         "checkpoint": checkpoint,
+        "views": list(views),
         "slots": slots,
         "states": [
             {"state": number, "joints": {name: round(q, DIGITS) for name, q in joints.items()}}

@@ -23,6 +23,7 @@ from model.prediction import Prediction
 from model.reconstruct import films
 from model.reconstruct.assemble import Assembled, Wishes, assemble
 from model.reconstruct.capture import Capture, read_capture
+from model.reconstruct.choice import Choice, chosen_views
 from model.reconstruct.draw import Painter
 from model.reconstruct.hull import VisualHull, check_cameras
 from model.reconstruct.masks import found_segmenter
@@ -74,12 +75,14 @@ class Outcome:
     """What came of it.
 
     Attributes:
+        told: what a user should know of the input.
         seconds: by stage.
         ious: of input and reprojected silhouettes.
     """
 
     report: Report
     assembled: Assembled
+    told: tuple[str, ...]
     seconds: Mapping[str, float]
     ious: tuple[float, ...]
 
@@ -124,6 +127,7 @@ class Made:
 
     capture: Capture
     sphere: Sphere
+    choice: Choice
     config: Config
     prediction: Prediction
     assembled: Assembled
@@ -160,6 +164,7 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
             made.assembled,
             seen,
             states=made.capture.states,
+            views=made.choice.views,
             checkpoint=told_checkpoint(order.checkpoint, made.config),
         )
         write_json(folder / PREDICTION, told)
@@ -170,7 +175,11 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
 
     fill_folder_atomically(order.out, fill)
     return Outcome(
-        report=report[0], assembled=made.assembled, seconds=watch.seconds, ious=tuple(ious)
+        report=report[0],
+        assembled=made.assembled,
+        told=made.choice.told,
+        seconds=watch.seconds,
+        ious=tuple(ious),
     )
 
 
@@ -179,8 +188,9 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     art, config, _ = load_art(order.checkpoint)
     watch.lap("checkpoint")
     capture, sphere = seen_object(order)
+    choice = chosen_views(capture, sphere, config.data)
     images = network_images(
-        capture.thinned(config.data.views),
+        capture.only(choice.views),
         sphere,
         size=config.data.input_px,
         background=config.data.background,
@@ -207,7 +217,12 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     )
     watch.lap("assembly")
     return Made(
-        capture=capture, sphere=sphere, config=config, prediction=prediction, assembled=assembled
+        capture=capture,
+        sphere=sphere,
+        choice=choice,
+        config=config,
+        prediction=prediction,
+        assembled=assembled,
     )
 
 
