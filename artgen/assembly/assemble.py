@@ -2,10 +2,8 @@
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Literal
-
-import numpy as np
 
 from artgen.articulation.types import ArticulatedObject, Joint, Part, Precondition
 from artgen.assembly.choice import OWN, Group, Market
@@ -14,33 +12,27 @@ from artgen.assembly.fill import Fill, Misfit, filled, gripped, handle_on, middl
 from artgen.assembly.library import Entry
 from artgen.assembly.licence import Licence, most_restrictive
 from artgen.assembly.looks import (
-    BODY_RECIPES,
     Looks,
     body_surface,
     drawn_looks,
     front_surface,
     handle_surface,
+    main_surfaces,
 )
 from artgen.assembly.piece import Piece, joined, picked, weighed
 from artgen.assembly.placing import Named, placed
+from artgen.assembly.plan import Plan, first_plan
 from artgen.assembly.shape_hash import looks_hash, object_hash, shape_hash, tree_hash
 from artgen.assembly.source import Member, Source
 from artgen.assembly.surface_table import Change, SurfaceTable
-from artgen.assembly.uv_fix import areas
+from artgen.assembly.variation import edged, shortened, takes_push, with_push
 from artgen.core.stream import Stream
 from artgen.core.surface import SurfaceSpec
 from artgen.finish import ATLAS_RESOLUTION
 from artgen.geometry.unwrap import atlas_uv
 
-DONORS = 5
-"""Donors that a group tries before it keeps its own fronts."""
-HANDLES = 4
-"""Handles that an object tries before each front keeps its own."""
 ROUNDS = 12
 """Times that an object is put together and checked before it is given up."""
-MAIN = 0.1
-"""Least share of a base's surface that a wood or paint covers to be its main one."""
-
 
 Layer = Literal["body", "handle", "works"]
 LAYERS: tuple[Layer, ...] = ("body", "handle", "works")
@@ -54,6 +46,7 @@ class Assembled:
         sources: for each slot filled, what filled it, as JSON.
         tried: reasons for which something else was taken before.
         seams: name of a filled part to how many of its bodies are front, handle and works.
+        pushed: its fronts have no handles; they are pushed to open.
     """
 
     category: str
@@ -67,6 +60,7 @@ class Assembled:
     sources: tuple[Mapping[str, Any], ...]
     tried: tuple[str, ...]
     seams: Mapping[str, tuple[int, int, int]]
+    pushed: bool = False
 
     def piece(self, name: str) -> Piece:
         """All bodies of a part."""
@@ -99,29 +93,6 @@ class GivenUp:
     tried: tuple[str, ...] = ()
 
 
-@dataclass(kw_only=True)
-class _Plan:
-    """What is tried next: a place in the order of donors for each group (None: it keeps its own),
-    and one in the order of handles (None: each front keeps its own)."""
-
-    donors: list[int | None]
-    handle: int | None = 0
-    tried: list[str] = field(default_factory=list)
-
-    def next_donor(self, group: int, groups: Sequence[Group], why: str) -> None:
-        """The next donor of a group, or none."""
-        self.tried.append(why)
-        place = self.donors[group]
-        last = min(DONORS, len(groups[group].donors)) - 1
-        self.donors[group] = None if place is None or place >= last else place + 1
-
-    def next_handle(self, count: int, why: str) -> None:
-        """The next handle, or none."""
-        self.tried.append(why)
-        last = min(HANDLES, count) - 1
-        self.handle = None if self.handle is None or self.handle >= last else self.handle + 1
-
-
 def assembled(market: Market, template: str, stream: Stream) -> Assembled | GivenUp:
     """A new object; depends on the library, the template's id and the stream alone."""
     source = market.library.source(template)
@@ -130,7 +101,7 @@ def assembled(market: Market, template: str, stream: Stream) -> Assembled | Give
     handles = market.handle_order(split, stream.child("handles"))
     looks = drawn_looks(stream.child("looks"))
     open_before = template_open(source)
-    plan = _Plan(donors=[0 if group.donors else None for group in groups])
+    plan = first_plan(source, groups, stream)
     plan.tried += [f"{_named(group)}: no donor suits" for group in groups if not group.donors]
     for _ in range(ROUNDS):
         slots = sum(len(group.slots) for group in groups)
@@ -161,7 +132,7 @@ class _Attempt:
         groups: Sequence[Group],
         handles: Sequence[Entry],
         looks: Looks,
-        plan: _Plan,
+        plan: Plan,
     ) -> None:
         self.market, self.source, self.groups = market, source, groups
         self.handles, self.looks, self.plan = handles, looks, plan
@@ -181,7 +152,8 @@ class _Attempt:
             if piece is None:
                 return None
             parts.append((member.name, member.label, piece))
-        named, joints = placed(parts, self.source.joints)
+        own = [shortened(joint, self.plan.travels) for joint in self.source.joints]
+        named, joints = placed(parts, own)
         pieces = {name: piece for name, _, piece in named}
         rules = self.source.preconditions
         if clash := clashing(self.source.base_name, joints, rules, pieces, open_before):
@@ -199,6 +171,7 @@ class _Attempt:
             sources=tuple(self.told),
             tried=tuple(self.plan.tried),
             seams=self.seams,
+            pushed=self.plan.push,
         )
 
     def _move_on(self, clash: Pair) -> None:
@@ -207,11 +180,11 @@ class _Attempt:
         involved = [self.group_of[name] for name in clash if name in self.group_of]
         changed = [k for k in involved if self.plan.donors[k] is not None]
         if changed and (self.plan.handle is None or len(self.plan.tried) % 2 == 0):
-            self.plan.next_donor(changed[0], self.groups, why)
+            self.plan.less_far(changed[0], self.groups, why)
         elif self.plan.handle is not None:
             self.plan.next_handle(len(self.handles), why)
         elif changed:
-            self.plan.next_donor(changed[0], self.groups, why)
+            self.plan.less_far(changed[0], self.groups, why)
         else:
             self.plan.donors = [None] * len(self.groups)  # Its own parts meet: nothing helps.
             self.plan.tried.append(why)
@@ -251,12 +224,15 @@ class _Attempt:
             else:
                 self.plan.next_handle(len(self.handles), why)
             return None
-        body = self.table.take(fill.body, donor_source.surfaces, self._for_front)
+        front = fill.body
+        if self.plan.push and takes_push(member, donor):
+            front = with_push(front, member.side, member.name)
+        taken = self.table.take(front, donor_source.surfaces, self._for_front)
         if place is not None:
             self._tell(member, donor_source, donor, fill)
-        layers = [body, handle, self._works(member)]
-        front, knob, rest = (len(p.densities) if p else 0 for p in layers)
-        self.seams[member.name] = front, knob, rest
+        layers = [taken, handle, self._works(member)]
+        body, knob, rest = (len(p.densities) if p else 0 for p in layers)
+        self.seams[member.name] = body, knob, rest
         return _with_grips(joined([p for p in layers if p is not None]), member)
 
     def _works(self, member: Member) -> Piece | None:
@@ -266,7 +242,9 @@ class _Attempt:
 
     def _handle(self, member: Member, donor: Member, fill: Fill) -> Piece | None:
         """The handle of a slot, in slots of the table; None where its front needs none."""
-        if member.kind == "whole" or member.side == "along" or _edged(donor):
+        if member.kind == "whole" or member.side == "along" or edged(donor):
+            return None
+        if self.plan.push and takes_push(member, donor):
             return None
         if member.handle is None and (donor.handle is None or self._waits(member)):
             return None
@@ -316,26 +294,8 @@ class _Attempt:
         )
 
 
-def _edged(donor: Member) -> bool:
-    """Whether a front is gripped at its own edge."""
-    return any(grip.kind == "edge" for grip in donor.body.grips)
-
-
 def _with_grips(piece: Piece, member: Member) -> Piece:
     return dataclasses.replace(piece, grips=gripped(piece, member.name, member.joint))
-
-
-def main_surfaces(source: Source) -> tuple[str, ...]:
-    """Names of the woods, paints and pictures that make up a base."""
-    mesh = source.base.mesh
-    covered = np.bincount(
-        np.asarray(mesh.slot), weights=areas(mesh.triangles), minlength=len(source.surfaces)
-    )
-    return tuple(
-        surface.name
-        for surface, area in zip(source.surfaces, covered, strict=True)
-        if surface.recipe in BODY_RECIPES and area >= MAIN * covered.sum()
-    )
 
 
 def finished(new: Assembled, *, asset_id: str, provenance: Mapping[str, Any]) -> ArticulatedObject:
@@ -366,6 +326,7 @@ def finished(new: Assembled, *, asset_id: str, provenance: Mapping[str, Any]) ->
             "donors": new.donors,
             "sources": new.sources,
             "licence": new.licence,
+            "push_to_open": new.pushed,
             "hashes": new.hashes,
         },
     )

@@ -14,15 +14,16 @@ from artgen.articulation.roles import ROLES
 from artgen.articulation.types import Joint, State
 from artgen.assembly.assemble import Assembled
 from artgen.assembly.clash import more_open, open_overlaps, template_open
+from artgen.assembly.evenness import density_by_part, density_by_surface
 from artgen.assembly.licence import most_restrictive
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.piece import Piece, body_volumes
 from artgen.assembly.shape_hash import tree_hash
 from artgen.assembly.source import Member, Source
-from artgen.assembly.texels import STRETCH, density, stretch, weighted_quantile
+from artgen.assembly.texels import STRETCH, stretch
 from artgen.assembly.uv_fix import areas
+from artgen.assembly.variation import LEAST_TRAVEL, may_shorten
 from artgen.core.mesh import Floats
-from artgen.core.surface import SurfaceSpec
 from artgen.core.transform import apply
 from artgen.dataset.split import split_of
 from artgen.geometry.clearance import shape_of_mesh
@@ -165,6 +166,33 @@ def _gap(handle: Piece, body: Piece) -> float:
     return min(nearest_distance(body.mesh.triangles, point) for point in foot)
 
 
+def held(case: Case) -> Iterator[Broken]:
+    """4: a front of which the template's had a handle has one, or an edge to grip, or a place where
+    it is pushed open."""
+    for member, _, _ in case.filled:
+        slides = member.side == "along"
+        bare = case.new.layer(member.name, "handle") is None
+        if member.handle and bare and not slides and not case.new.piece(member.name).grips:
+            yield _broken(
+                4, member, "nothing to take hold of", "a handle, an edge or a place to push"
+            )
+
+
+def travels(case: Case) -> Iterator[Broken]:
+    """17: every joint opens as far as the template's, or less by at most a fifth; one that others
+    follow or wait for opens as far."""
+    free = may_shorten(case.template)
+    own = {joint.name: joint.limit for joint in case.template.joints}
+    for joint in case.new.joints:
+        was, now = own[joint.name], joint.limit
+        if was is None or now is None or now == was:
+            continue
+        least = LEAST_TRAVEL if joint.name in free else 1.0
+        if now.lower != was.lower or not least * was.upper <= now.upper <= was.upper:
+            value, bound = f"{now.upper / was.upper:.3f}", f"{least} to 1 of the template's travel"
+            yield Broken(number=17, part=joint.child, value=value, bound=bound)
+
+
 def rest(case: Case) -> Iterator[Broken]:
     """5: rest is closed: no state of a joint makes the object's box smaller, and what closes opens
     one way."""
@@ -224,7 +252,8 @@ def engaged(case: Case) -> Iterator[Broken]:
 
 
 def sound(case: Case) -> Iterator[Broken]:
-    """9: no triangle twice or without area, every body outward."""
+    """9: no triangle twice or without area, every body outward, collision within the part."""
+    reach = shipped_bounds().collision_reach.value
     for name, piece in _named(case.new):
         a, b, c = piece.mesh.triangles.transpose(1, 0, 2)
         least = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).min()) / 2.0
@@ -234,6 +263,12 @@ def sound(case: Case) -> Iterator[Broken]:
             yield Broken(number=9, part=name, value=f"{count} triangles twice", bound="0")
         if body_volumes(piece.mesh).min() <= 0.0:
             yield Broken(number=9, part=name, value="a body winds inward", bound="outward")
+        ends = np.array([c.bounds for c in piece.collision] or [piece.bounds])
+        beyond = max((piece.bounds[0] - ends[:, 0]).max(), (ends[:, 1] - piece.bounds[1]).max())
+        if beyond > reach:
+            yield Broken(
+                number=9, part=name, value=f"collision {beyond:.3g} m out", bound=f"<= {reach:g} m"
+            )
 
 
 def textured(case: Case) -> Iterator[Broken]:
@@ -308,49 +343,14 @@ def _broken(number: int, member: Member, value: float | str, bound: str) -> Brok
     return Broken(number=number, part=member.name, value=told, bound=bound)
 
 
-def density_by_surface(new: Assembled) -> dict[str, float]:
-    """Surface name to the coefficient of variation of texel density over its area; surfaces
-    without images, prints, which fill the face they are made for, and pictures from elsewhere are
-    left out."""
-    found: dict[str, list[tuple[Floats, Floats]]] = {}
-    for _, _, piece in new.parts:
-        dense, weight = density(piece.mesh), areas(piece.mesh.triangles)
-        for slot in piece.slots:
-            own = np.asarray(piece.mesh.slot) == slot
-            if _tiles(new.surfaces[slot]):
-                found.setdefault(new.surfaces[slot].name, []).append((dense[own], weight[own]))
-    return {name: _variation(pairs) for name, pairs in found.items()}
-
-
-def _tiles(surface: SurfaceSpec) -> bool:
-    """Whether a surface has images that are to be as dense everywhere."""
-    return stuff_of(surface) != "print" and surface.recipe not in ("plain", "picture")
-
-
-def _variation(pairs: list[tuple[Floats, Floats]]) -> float:
-    values, weights = (np.concatenate(column) for column in zip(*pairs, strict=True))
-    mean = float(np.average(values, weights=weights))
-    return float(np.sqrt(np.average((values - mean) ** 2, weights=weights)) / mean)
-
-
-def density_by_part(new: Assembled) -> dict[str, float]:
-    """Name of a part to the median by area of density on it, over the same surfaces."""
-    tiling = [slot for slot, surface in enumerate(new.surfaces) if _tiles(surface)]
-    medians = {}
-    for name, _, piece in new.parts:
-        own = np.isin(np.asarray(piece.mesh.slot), tiling)
-        if own.any():
-            weights = areas(piece.mesh.triangles)[own]
-            medians[name] = weighted_quantile(density(piece.mesh)[own], weights, 0.5)
-    return medians
-
-
 Check = Callable[[Case], Iterator[Broken]]
 OF_OBJECTS: tuple[Check, ...] = (
     tree,
     boxes,
     hinges,
     handles,
+    held,
+    travels,
     rest,
     clear,
     engaged,

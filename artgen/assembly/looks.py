@@ -5,7 +5,10 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Literal
 
-from artgen.assembly.source import PRINTS
+import numpy as np
+
+from artgen.assembly.source import PRINTS, Source
+from artgen.assembly.uv_fix import areas
 from artgen.core.stream import Stream
 from artgen.core.surface import SurfaceSpec
 from artgen.rules.load import rules_folder
@@ -31,6 +34,9 @@ PANEL_RECIPES = frozenset({"wood", "paint", "enamel", "plain", "plastic", "brush
 what foreign objects are covered with."""
 BODY_RECIPES = frozenset({"wood", "paint", "picture"})
 """The same for what bodies of furniture are mainly made of."""
+
+MAIN = 0.1
+"""Least share of a base's surface that a wood or paint covers to be its main one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,3 +98,16 @@ def handle_surface(surface: SurfaceSpec, looks: Looks) -> SurfaceSpec:
     """What a surface of a handle becomes: any metal, lacquered or not, the object's metal."""
     lacquered = stuff_of(surface) in ("metal", "paint") or surface.recipe == "picture"
     return looks.metal if lacquered else surface
+
+
+def main_surfaces(source: Source) -> tuple[str, ...]:
+    """Names of the woods, paints and pictures that make up a base."""
+    mesh = source.base.mesh
+    covered = np.bincount(
+        np.asarray(mesh.slot), weights=areas(mesh.triangles), minlength=len(source.surfaces)
+    )
+    return tuple(
+        surface.name
+        for surface, area in zip(source.surfaces, covered, strict=True)
+        if surface.recipe in BODY_RECIPES and area >= MAIN * covered.sum()
+    )

@@ -1,9 +1,9 @@
 """Sources: finished objects taken apart into what templates keep and what donors give."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 import manifold3d as m3
 import numpy as np
@@ -23,15 +23,19 @@ from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
 from artgen.finish import Rounder, collision_mesh, joined_mesh, meshed, settle_overlaps
 from artgen.geometry.clearance import shape_of_mesh
-from artgen.geometry.solid import slab
+from artgen.geometry.solid import hull, slab
 
 Side = Literal["out", "along", "left", "right", "bottom", "top", "turn"]
 """How a part opens: slid out to -y, slid otherwise, hinged at a side of its box, or turned about an
 axis along y or without end."""
 Kind = Literal["front", "whole"]
 """Whether a front can be told from the works behind it, or all but the handle goes as one."""
+ROUNDING = 1e-6
+"""m; what collision pieces may stick out of a front."""
 INTRUDES = 1e-9
 """m3; works that share more with the box of their front keep other fronts out."""
+HANDLE_LEAVES = frozenset({"handle", "knob", "pull"})
+"""What sources call the bodies that a hand takes hold of."""
 PRINTS = frozenset(
     {"printed_marks", "appliance_panel", "appliance_display", "carton_print", "screen", "keyboard"}
 )
@@ -142,7 +146,8 @@ def source_of_object(
             continue
         whole = piece_of_part(part)
         boxes = body_boxes(whole.mesh)
-        split = split_bodies(boxes, joint, part.grips)
+        called = named_bodies(obj.provenance, part.name, HANDLE_LEAVES)
+        split = split_bodies(boxes, joint, part.grips, handles=called)
         groups = [split.front, split.handle, split.works] if split else [range(len(boxes))]
         own = [piece for group in groups if (piece := picked(whole, group)) is not None]
         if split and not _fits_before(own[0], own[-1] if split.works else None):
@@ -161,6 +166,17 @@ def source_of_object(
         dataset=dataset,
         family=family or id,
     )
+
+
+def named_bodies(
+    provenance: Mapping[str, Any], part: str, leaves: Collection[str]
+) -> tuple[int, ...]:
+    """Numbers of the bodies of a part that its source calls by one of some names: `fragments` of
+    an ingested object lists runs of bodies by the name of their leaf."""
+    stated = provenance.get("fragments")
+    runs = stated.get(part, ()) if isinstance(stated, Mapping) else ()
+    starts = [run["bodies"] for run in runs if str(run["leaf"]).lower() in leaves]
+    return tuple(k for first, count in starts for k in range(first, first + count))
 
 
 def split_draft(part: DraftPart, joint: Joint) -> Split | None:
@@ -224,10 +240,25 @@ def _named(name: str, label: str, joint: Joint, split: Split | None, own: list[P
         joint=joint,
         kind="front" if split else "whole",
         side=side_of(joint, own[0].bounds),
-        body=own[0],
+        body=kept_within(own[0]) if split else own[0],
         handle=handle,
         works=works,
     )
+
+
+def kept_within(front: Piece) -> Piece:
+    """A front whose collision pieces end where it does: those of a hollow door reach back through
+    the lining, which belongs to the works."""
+    lower, upper = front.bounds
+    room = slab(lower, upper)
+
+    def cut(piece: TriMesh) -> TriMesh:
+        low, high = piece.bounds
+        within = (low >= lower - ROUNDING).all() and (high <= upper + ROUNDING).all()
+        return piece if within else collision_mesh(hull(piece.vertices) & room)
+
+    own = [c for c in front.collision if ((c.bounds[1] > lower) & (c.bounds[0] < upper)).all()]
+    return dataclasses.replace(front, collision=tuple(cut(piece) for piece in own))
 
 
 def _sorted_grips(member: Member) -> Member:

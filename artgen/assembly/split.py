@@ -43,21 +43,29 @@ class Split:
     works: Indices
 
 
-def split_bodies(boxes: Floats, joint: Joint, grips: Sequence[Grip]) -> Split | None:
+def split_bodies(
+    boxes: Floats, joint: Joint, grips: Sequence[Grip], *, handles: Sequence[int] = ()
+) -> Split | None:
     """Front, handle and works of a moving part; None where it shows no front toward -y.
 
     Args:
         boxes: (B, 2, 3) bounds of its bodies at rest, m.
         joint: what moves it.
         grips: where it is taken hold of.
+        handles: numbers of the bodies that its source calls handles; those that stand out before
+            the front are its handle, and nothing else is.
     """
-    slab = front_slab(boxes)
+    called = np.isin(np.arange(len(boxes)), list(handles))
+    slab = None if called.all() else front_slab(boxes[~called])
     if slab is None:
         return None
     front = _in_slab(boxes, slab) & ~_near_axis(boxes, joint)
     if not front.any():
         return None
-    handle = _handles(boxes, front, joint, grips)
+    if called.any():
+        handle = called & ~front & (boxes[:, 0, 1] < slab[0, 1])
+    else:
+        handle = _handles(boxes, front, joint, grips)
     works = ~front & ~handle
     picked = [tuple(int(k) for k in np.flatnonzero(mask)) for mask in (front, handle, works)]
     return Split(front=picked[0], handle=picked[1], works=picked[2])

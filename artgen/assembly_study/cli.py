@@ -1,6 +1,5 @@
 """`artgen study assembly`."""
 
-import json
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,12 +11,13 @@ from artgen.assembly.build import embedded_library
 from artgen.assembly.choice import Market
 from artgen.assembly.library import Library
 from artgen.assembly.run import TEMPLATES
+from artgen.assembly_study.chunks import read_chunk, save_chunk
 from artgen.assembly_study.page import page
 from artgen.assembly_study.plots import write_histograms
-from artgen.assembly_study.rows import WHAT, Chunk, ChunkTask, Row, measured, open_market
+from artgen.assembly_study.rows import WHAT, Chunk, ChunkTask, measured, open_market
 from artgen.assembly_study.sheet import write_sheet
 from artgen.core.errors import ArtgenError, UsageError
-from artgen.core.jsonio import plain, write_bytes, write_json
+from artgen.core.jsonio import write_bytes
 from artgen.pipeline import Toolbox
 from artgen.pool import run_in_processes
 from artgen.progress import progress
@@ -99,19 +99,13 @@ def all_chunks(command: Study, library: Path, digest: str) -> list[Chunk]:
         )
         for chunk in outcomes if missing else ():
             rows = chunk.rows
-            write_json(home / f"{rows[0].index}-{rows[-1].index + 1}.json", plain(chunk))
+            save_chunk(home / f"{rows[0].index}-{rows[-1].index + 1}.json", chunk)
             advance(f"{sum(row.accepted for row in rows)} of {len(rows)} accepted")
-    return [_from_json(_place(home, task)) for task in tasks]
+    return [read_chunk(_place(home, task)) for task in tasks]
 
 
 def _place(home: Path, task: ChunkTask) -> Path:
     return home / f"{task.start}-{task.stop}.json"
-
-
-def _from_json(path: Path) -> Chunk:
-    stated = json.loads(path.read_text(encoding="utf-8"))
-    rows = tuple(Row(**row) for row in stated.pop("rows"))
-    return Chunk(rows=rows, **{key: tuple(values) for key, values in stated.items()})
 
 
 def _lost(task: ChunkTask, cause: str) -> Chunk:

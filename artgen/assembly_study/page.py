@@ -1,17 +1,21 @@
 """The page of the study, written from its rows."""
 
+import itertools
 from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
 
 from artgen.assembly.choice import Market
+from artgen.assembly_study.near import TAU, twins
 from artgen.assembly_study.plots import share_within, summed
 from artgen.assembly_study.rows import DENSITY_BINS, STRETCH_BINS, Chunk, Row, entropy_share
 from artgen.core.mesh import Floats
 from artgen.studies.table import markdown_table
 
 TEN_THOUSAND = 10_000
+SIZES = (0.8, 1.1, 1.4, 1.8)
+"""m; between bins of the diagonal."""
 SHEET = (
     *("## Beside their templates", "", "Template left, new object right.", ""),
     *("![contact sheet](assembly_sheet.webp)", ""),
@@ -34,6 +38,8 @@ def page(market: Market, chunks: Sequence[Chunk], *, seed: int, sheet: bool) -> 
             markdown_table(("what", "found", "asked"), _facts(market, rows, accepted, chunks)),
             "",
             *(_why(rows)),
+            *_near(chunks, accepted),
+            *_coverage(accepted),
             "## Texture before and after the correction",
             "",
             "![histograms](assembly_texture.png)",
@@ -59,6 +65,12 @@ def _facts(
         ("accepted", f"{len(accepted)} ({100.0 * len(accepted) / len(rows):.1f} %)", ">= 80 %"),
         ("distinct by tree, shapes and looks", f"{distinct}", "all"),
         ("distinct (template, donors)", f"{tuples}", ""),
+        ("fronts without a handle: gripped at an edge or pushed / all filled",
+         f"{sum(r.bare for r in accepted)} / {sum(r.filled for r in accepted)}", ""),
+        ("objects whose fronts are pushed to open",
+         f"{100.0 * np.mean([r.pushed for r in accepted]):.1f} %", "10 %"),
+        ("joints that open less far than the template's / all",
+         f"{sum(r.shorter for r in accepted)} / {sum(r.parts - 1 for r in accepted)}", ""),
         ("distinct trees", f"{len({row.tree for row in accepted})}", ""),
         ("templates used / available",
          f"{len({row.template for row in accepted})} / {len(market.template_ids)}", ""),
@@ -97,3 +109,43 @@ def _why(rows: Sequence[Row]) -> list[str]:
         return []
     listed = [(f"{count}", reason) for reason, count in reasons.most_common(12)]
     return ["## Given up", "", markdown_table(("objects", "reason"), listed), ""]
+
+
+def _near(chunks: Sequence[Chunk], accepted: Sequence[Row]) -> list[str]:
+    """How near the nearest other object of the same template lies, in shape alone."""
+    found = twins([face for chunk in chunks for face in chunk.faces])
+    apart = np.array([found.nearest[row.index][0] for row in accepted])
+    looks = {row.index: row.looks for row in accepted}
+    near = [row.index for row, distance in zip(accepted, apart, strict=True) if distance < TAU]
+    both = sum(looks[index] == looks[found.nearest[index][1]] for index in near)
+    met = apart[np.isfinite(apart)]
+    low, middle = np.quantile(met, (0.05, 0.5)) if len(met) else (np.inf, np.inf)
+    facts = [
+        ("nearest other object of the same template, 5 % / half", f"{low:.4f} / {middle:.4f}"),
+        (f"nearer than {TAU:g} (near-duplicates in shape)", f"{len(near)}"),
+        ("of these with the looks of their twin as well", f"{both}"),
+        ("left if near-duplicates in shape are dropped, one kept", f"{found.distinct}"),
+    ]
+    return [
+        *("## Near-duplicates", ""),
+        "Fronts and handles of two objects of one template, part by part: the Chamfer distance of "
+        "144 + 36 points where a grid of rays meets them, over the front's diagonal; the part that "
+        "differs most counts. Bodies, woods, paints and metals do not.",
+        *("", markdown_table(("what", "found"), facts), ""),
+    ]
+
+
+def _coverage(accepted: Sequence[Row]) -> list[str]:
+    """Accepted objects by size and number of parts."""
+    sizes = np.digitize([row.diagonal for row in accepted], SIZES)
+    counts = Counter(zip(sizes.tolist(), (row.parts for row in accepted), strict=True))
+    parts = sorted({row.parts for row in accepted})
+    bounds = ["0", *(f"{size:g}" for size in SIZES)]
+    named = [f"{a} to {b} m" for a, b in itertools.pairwise(bounds)] + [f"above {bounds[-1]} m"]
+    cells = [
+        (name, *(str(counts[place, count] or "") for count in parts))
+        for place, name in enumerate(named)
+    ]
+    header = ("diagonal", *(f"{count} parts" for count in parts))
+    filled = f"{len(counts)} of {len(named) * len(parts)} cells have objects."
+    return ["## Sizes and part counts", "", markdown_table(header, cells), "", filled, ""]

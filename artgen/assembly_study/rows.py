@@ -10,12 +10,14 @@ import numpy as np
 
 from artgen.assembly.assemble import Assembled, GivenUp
 from artgen.assembly.choice import Market
-from artgen.assembly.invariants import Case, broken, density_by_part
+from artgen.assembly.evenness import density_by_part
+from artgen.assembly.invariants import Case, broken
 from artgen.assembly.library import Library
 from artgen.assembly.run import TEMPLATES, new_object
 from artgen.assembly.source import Member
 from artgen.assembly.texels import density, ratios
 from artgen.assembly.uv_fix import areas
+from artgen.assembly_study.near import Face, face_of
 from artgen.core.mesh import Floats, TriMesh
 
 DENSITY_BINS = np.linspace(0.3, 2.2, 77)
@@ -30,9 +32,14 @@ class Row:
     Attributes:
         reason: why it was given up, or which invariants do not hold; empty when all is well.
         hash: of tree, shapes and looks.
+        looks: hash of looks alone.
+        diagonal: of the object at rest, m.
         parts: base included.
         filled: slots filled by donors.
         bodies: sources of bodies and handles with the number of the part, joined by blanks.
+        bare: filled slots without a handle, whose fronts are gripped at an edge or pushed.
+        pushed: the fronts of the object are pushed to open.
+        shorter: joints that open less far than the template's.
         tried: how often something else was tried.
         least, most: texel density of the parts over the median of all parts.
         seconds: CPU time to assemble it, and to hold it against the invariants.
@@ -44,8 +51,13 @@ class Row:
     reason: str
     hash: str
     tree: str
+    looks: str
+    diagonal: float
     parts: int
     filled: int
+    bare: int
+    pushed: bool
+    shorter: int
     bodies: str
     tried: int
     least: float
@@ -57,13 +69,14 @@ class Row:
 @dataclass(frozen=True, kw_only=True)
 class Chunk:
     """Rows of one task, and areas of fitted fronts in m2 by texel density and by stretch, with the
-    texture coordinates left as they were and as corrected."""
+    texture coordinates left as they were and as corrected; the faces of what was accepted."""
 
     rows: tuple[Row, ...]
     density_left: tuple[float, ...]
     density_fixed: tuple[float, ...]
     stretch_left: tuple[float, ...]
     stretch_fixed: tuple[float, ...]
+    faces: tuple[Face, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,7 +114,7 @@ def measured(task: ChunkTask) -> Chunk:
 def measured_by(market: Market, task: ChunkTask) -> Chunk:
     """The rows of a task."""
     sums = [np.zeros(len(b) - 1) for b in (DENSITY_BINS, DENSITY_BINS, STRETCH_BINS, STRETCH_BINS)]
-    rows = []
+    rows, faces = [], []
     for index in range(task.start, task.stop):
         began = time.process_time()
         new = new_object(market, WHAT, task.seed, index)
@@ -110,6 +123,8 @@ def measured_by(market: Market, task: ChunkTask) -> Chunk:
             rows.append(_given_up(index, new, spent))
             continue
         rows.append(_row(index, new, market.library, spent))
+        if rows[-1].accepted:
+            faces.append(face_of(index, new))
         for body, donor, mirrored in fitted_bodies(new, market.library):
             weights = areas(body.triangles)
             for k, mesh in enumerate((left_as_it_was(body, donor, mirrored=mirrored), body)):
@@ -121,14 +136,15 @@ def measured_by(market: Market, task: ChunkTask) -> Chunk:
         density_fixed=tuple(sums[1].tolist()),
         stretch_left=tuple(sums[2].tolist()),
         stretch_fixed=tuple(sums[3].tolist()),
+        faces=tuple(faces),
     )
 
 
 def _given_up(index: int, new: GivenUp, spent: float) -> Row:
     return Row(
         index=index, template=new.template, accepted=False, reason=new.reason, hash="", tree="",
-        parts=0, filled=0, bodies="", tried=len(new.tried), least=1.0, most=1.0, assemble_s=spent,
-        check_s=0.0,
+        looks="", diagonal=0.0, parts=0, filled=0, bare=0, pushed=False, shorter=0, bodies="",
+        tried=len(new.tried), least=1.0, most=1.0, assemble_s=spent, check_s=0.0,
     )  # fmt: skip
 
 
@@ -151,8 +167,13 @@ def _row(index: int, new: Assembled, library: Library, spent: float) -> Row:
         reason="; ".join(f"{f.number} {f.part}: {f.value}" for f in faults),
         hash=hashes["object"],
         tree=hashes["tree"],
+        looks=hashes["looks"],
+        diagonal=round(case.diagonal, 4),
         parts=len(new.parts),
         filled=len(bodies),
+        bare=sum(new.layer(str(e["part"]), "handle") is None for e in bodies),
+        pushed=new.pushed,
+        shorter=_shorter(case),
         bodies=" ".join(sorted({f"{e['source']}:{e['of']}" for e in bodies})),
         tried=len(new.tried),
         least=float(medians.min() / np.median(medians)),
@@ -160,6 +181,12 @@ def _row(index: int, new: Assembled, library: Library, spent: float) -> Row:
         assemble_s=spent,
         check_s=time.process_time() - began,
     )
+
+
+def _shorter(case: Case) -> int:
+    """How many joints open less far than the template's."""
+    own = {joint.name: joint.limit for joint in case.template.joints}
+    return sum(joint.limit != own[joint.name] for joint in case.new.joints)
 
 
 def fitted_bodies(new: Assembled, library: Library) -> list[tuple[TriMesh, TriMesh, bool]]:

@@ -10,9 +10,18 @@ from artgen.articulation.types import Grip, Joint, Limit
 from artgen.assembly.build import sharp
 from artgen.assembly.licence import OURS
 from artgen.assembly.piece import body_boxes, body_volumes, joined, picked, piece_of_part, weighed
-from artgen.assembly.source import side_of, source_of_draft, source_of_object
+from artgen.assembly.source import (
+    HANDLE_LEAVES,
+    kept_within,
+    named_bodies,
+    side_of,
+    source_of_draft,
+    source_of_object,
+)
 from artgen.assembly.split import split_bodies
+from artgen.geometry.convex import as_box
 from tests.made import drafted, finished
+from tests.unit.assembly.test_fit import piece_of
 
 GRIP = Grip(name="g", kind="handle", position=(0.0, -0.03, 0.3), outward=(0.0, -1.0, 0.0),
             pull=(0.0, -1.0, 0.0))  # fmt: skip
@@ -53,6 +62,69 @@ def test_hinges_belong_to_the_works_even_before_the_front():
 def test_without_grips_what_stands_out_is_a_handle():
     split = split_bodies(boxes(FRONT, BAR, *POSTS, KNUCKLE), HINGE, [])
     assert (split.handle, split.works) == ((1, 2, 3), (4,))
+
+
+TRIM = [(-0.2, -0.012, 0.1), (0.2, 0.0, 0.13)]
+"""Stands out before the front, but no hand takes hold of it."""
+
+
+def test_bodies_that_a_source_calls_handles_are_the_handle_and_no_others():
+    listed = boxes(FRONT, BAR, *POSTS, TRIM, *SIDES)
+    split = split_bodies(listed, SLIDE, [], handles=[1, 2, 3])
+    assert (split.front, split.handle, split.works) == ((0,), (1, 2, 3), (4, 5, 6))
+    unnamed = split_bodies(listed, SLIDE, [])
+    assert 4 in unnamed.handle  # The control: told by where it lies, trim is taken for a handle.
+
+
+def test_a_handle_as_wide_as_its_front_is_not_the_front():
+    """Its name tells; by where it lies, the thin wide rail before all else is the front."""
+    rail = [(-0.2, -0.02, 0.2), (0.2, -0.015, 0.4)]
+    split = split_bodies(boxes(FRONT, rail), SLIDE, [], handles=[1])
+    assert (split.front, split.handle) == ((0,), (1,))
+    assert split_bodies(boxes(FRONT, rail), SLIDE, []).front == (1,)
+
+
+def test_what_is_called_a_handle_but_lies_within_the_front_stays_there():
+    flush = [(-0.05, 0.002, 0.28), (0.05, 0.018, 0.32)]
+    split = split_bodies(boxes(FRONT, flush), SLIDE, [], handles=[1])
+    assert (split.front, split.handle) == ((0, 1), ())
+
+
+def test_the_leaves_of_an_ingested_bundle_name_its_handles():
+    runs = {"door": [{"leaf": "door_body", "bodies": [0, 2]}, {"leaf": "Handle", "bodies": [2, 3]},
+                     {"leaf": "knob", "bodies": [7, 1]}]}  # fmt: skip
+    found = named_bodies({"fragments": runs}, "door", HANDLE_LEAVES)
+    assert found == (2, 3, 4, 7)
+    assert named_bodies({"fragments": runs}, "drawer", HANDLE_LEAVES) == ()
+    assert named_bodies({}, "door", HANDLE_LEAVES) == ()
+
+
+def test_a_finished_object_is_taken_apart_by_the_names_of_its_leaves():
+    """Two posts of a handle are called trim: without their names they were part of it."""
+    obj = finished("cabinet", 0)
+    plain = source_of_object(obj, id="x", licence=OURS, dataset="artgen")
+    member = next(m for m in plain.members if m.handle is not None)
+    part = next(p for p in obj.parts if p.name == member.name)
+    boxes_ = body_boxes(part.mesh)
+    own = body_boxes(member.handle.mesh)
+    numbers = [k for k, box in enumerate(boxes_) if any(np.array_equal(box, b) for b in own)]
+    runs = {part.name: [{"leaf": "handle", "bodies": [numbers[0], 1]}]}
+    named = replace(obj, provenance={**obj.provenance, "fragments": runs})
+    again = source_of_object(named, id="x", licence=OURS, dataset="artgen")
+    handle = next(m for m in again.members if m.name == part.name).handle
+    assert np.array_equal(body_boxes(handle.mesh), boxes_[numbers[:1]])
+
+
+def test_collision_pieces_end_where_their_front_does():
+    """A hollow door's pieces reach back through its lining; boxes stay boxes."""
+    front = piece_of((0.0, 0.0, 0.0), (0.4, 0.02, 0.6))
+    deep = piece_of((0.0, 0.0, 0.0), (0.4, 0.05, 0.6)).mesh
+    aside = piece_of((0.0, 0.03, 0.0), (0.4, 0.05, 0.6)).mesh
+    kept = kept_within(replace(front, collision=(deep, front.mesh, aside))).collision
+    assert len(kept) == 2
+    assert np.abs(kept[0].bounds - front.bounds).max() < 1e-9
+    assert as_box(kept[0]) is not None
+    assert kept[1] is front.mesh
 
 
 def test_a_frame_with_a_pane_is_one_front():
