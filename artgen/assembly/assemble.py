@@ -31,7 +31,7 @@ from artgen.core.surface import SurfaceSpec
 from artgen.finish import ATLAS_RESOLUTION
 from artgen.geometry.unwrap import atlas_uv
 
-ROUNDS = 12
+ROUNDS = 18
 """Times that an object is put together and checked before it is given up."""
 
 Layer = Literal["body", "handle", "works"]
