@@ -15,9 +15,7 @@ from artgen.export.kinematics import vector
 from artgen.ingest.foreign import ForeignJoint, ForeignObject
 from artgen.ingest.rest import Rest, drawn_joint
 from artgen.ingest.sizes import Scale, chosen_scale
-
-SHARES = (0.25, 0.5, 1.0)
-"""Of its way that a joint is opened to see whether collision pieces stand in it."""
+from artgen.validate.sweep import POSES
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -117,8 +115,8 @@ def placed_joint(joint: ForeignJoint, rest: Rest, place: Place) -> PlacedJoint:
 def swept_poses(
     parts: Sequence[str], joints: Sequence[ForeignJoint], rests: Mapping[str, Rest], place: Place
 ) -> list[dict[str, Floats]]:
-    """Part name to its (4, 4) motion from rest, in the object frame: each joint a quarter, half and
-    all of its way open with the others at rest, and all of them open."""
+    """Part name to its (4, 4) motion from rest, in the object frame: each joint through its range
+    with the others at rest, and with the others open, as the validator moves them."""
     moved = {joint.name: placed_joint(joint, rests[joint.name], place) for joint in joints}
     chain = [
         dataclasses.replace(
@@ -126,10 +124,17 @@ def swept_poses(
         )
         for joint in joints
     ]
-    ends = {n: math.pi if at.limit is None else at.limit.upper for n, at in moved.items()}
-    states = [{name: share * end} for name, end in ends.items() for share in SHARES]
-    base = parts[0]
-    return [forward_kinematics(base, chain, state) for state in ([*states, ends] if ends else [])]
+    full = Limit(lower=-math.pi, upper=math.pi)
+    ranges = {name: at.limit or full for name, at in moved.items()}
+    open_ = {name: limit.upper for name, limit in ranges.items()}
+    others = [dict.fromkeys(open_, 0.0), open_] if len(joints) > 1 else [{}]
+    states = [
+        {**held, name: q}
+        for name, limit in ranges.items()
+        for held in others
+        for q in np.linspace(limit.lower, limit.upper, POSES).tolist()
+    ]
+    return [forward_kinematics(parts[0], chain, state) for state in states]
 
 
 def carried(parts: Sequence[str], joints: Sequence[ForeignJoint]) -> dict[str, list[str]]:

@@ -9,7 +9,8 @@ from artgen.geometry.convex import convexity_gap
 from artgen.geometry.distance import inside_bodies
 from artgen.geometry.solid import box
 from artgen.ingest.meshes.clean import Body, bodies_of, welded_soup
-from artgen.ingest.meshes.pieces import clipped, convex_pieces
+from artgen.ingest.meshes.cuts import clipped
+from artgen.ingest.meshes.pieces import convex_pieces
 from artgen.ingest.meshes.soup import Look, Soup
 
 GAP = 1e-5
@@ -110,7 +111,7 @@ def test_a_lone_triangle_gets_a_piece_with_a_volume() -> None:
 def test_clipping_keeps_the_area_and_crosses_nothing(place: float) -> None:
     """Areas of the two sides sum to the whole: a few hundred roundings of 1e-16."""
     corners = tray()
-    above, below = clipped(corners, 2, place)
+    above, below = clipped(corners, corners[..., 2] - place)
     assert _area(above) + _area(below) == pytest.approx(_area(corners), rel=1e-12)
     assert above[..., 2].min() >= place - 1e-15
     assert below[..., 2].max(initial=-1.0) <= place + 1e-15
