@@ -1,6 +1,7 @@
 """What a run learns from: objects made from seeds, libraries of them, rendered shards."""
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ from artgen.rules import rule_names
 from model.data.config import DataConfig
 from model.data.items import Source
 from model.data.kept import Kept
-from model.data.library import read_library
+from model.data.library import library_made, read_library
 from model.data.make import Request, dealt, make_library
 from model.data.mixed import Mixed
 from model.data.shards import ShardSource
@@ -46,6 +47,13 @@ class Material:
         names = self.categories or tuple(rule_names())
         counts = {name: count for name, count in dealt(names, self.objects).items() if count}
         return Request(counts=counts, seed=seed, tolerance=TOLERANCE)
+
+
+def stated_origin(material: Material, seed: int) -> Mapping[str, object]:
+    """What the objects were made from, as a model card states it; empty for shards alone."""
+    if material.library is not None:
+        return library_made(material.library)
+    return material.request(seed).made if material.categories or not material.shards else {}
 
 
 def make_missing(material: Material, folder: Path, data: DataConfig, *, show: Show) -> None:

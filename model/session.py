@@ -23,7 +23,7 @@ from model.config import Config
 from model.data.items import Source
 from model.data.loader import batches
 from model.distributed import Plan, Team, joined, wait_for_all, whole
-from model.material import Material, make_missing, opened
+from model.material import Material, make_missing, opened, stated_origin
 from model.objective import Objective
 from model.perceptual import packaged_distance
 from model.picture import picture_of
@@ -145,7 +145,7 @@ def _draw(art: Art, supply: Supply, team: Team) -> Draw | None:
 def _card(source: Source[Any], config: Config, material: Material, run: Run) -> ModelCard:
     return ModelCard(
         data={
-            "made": material.request(config.data.seed).made,
+            "made": stated_origin(material, config.data.seed),
             "library": material.library and material.library.name,
             "shards": [path.name for path in material.shards],
             "split": material.split,

@@ -248,6 +248,20 @@ def read_library(path: Path) -> Library:
     )
 
 
+def library_made(path: Path) -> Mapping[str, object]:
+    """What a library in a file was asked for; its objects are not read.
+
+    Raises:
+        ModelError: there is no such file, or it is none of ours.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            made: Mapping[str, object] = json.loads(stored["names"].tobytes())["made"]
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile, zlib.error) as error:
+        raise ModelError(f"{path}: is no library of training objects ({error})") from error
+    return made
+
+
 def taken(library: Library, positions: Sequence[int]) -> Library:
     """Some of its soups, bit for bit, in the order of the positions."""
     return joined([_alone(library, k) for k in positions])

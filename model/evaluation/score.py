@@ -112,28 +112,21 @@ def score(
         "parts.count_right": [float(len(predicted) == len(true))],
         "parts.count_error": [float(abs(len(predicted) - len(true)))],
     }
-    _put(found, "paris", asdict(paris(predicted, true, _nearest(predicted, true))))
+    put(found, "paris", asdict(paris(predicted, true, nearest(predicted, true))))
     predicted, true = in_radii(aligned(predicted, true, protocol.align), true)
-    matchings = {"order": by_order(len(predicted), len(true)), "nearest": _nearest(predicted, true)}
-    _put(found, "singapo.published", _published(predicted, true, protocol))
-    for name, matching in matchings.items():
-        _put(found, f"singapo.honest.{name}", asdict(honest(predicted, true, matching)))
-        _put_joints(found, f"joints.{name}", joint_errors(predicted, true, matching))
-        _put(found, f"states.{name}", {"center": state_centers(predicted, true, matching)})
-    if protocol.mask_pixels:
-        seen = mask_scores(predicted, true, matchings, pixels=protocol.mask_pixels)
-        for name, masks in seen.items():
-            _put(found, f"masks.{name}", asdict(masks))
+    matchings = {"order": by_order(len(predicted), len(true)), "nearest": nearest(predicted, true)}
+    put(found, "singapo.published", _published(predicted, true, protocol))
+    found |= matched_values(predicted, true, matchings, mask_pixels=protocol.mask_pixels)
     found["singapo.honest.aor"] = [overlap_ratio(predicted)]
     found["singapo.honest.aor_true"] = [overlap_ratio(true)]
     _put_particulate(found, particulate(predicted, true, points=protocol.part_points))
     _put_surfaces(found, predicted, true, protocol)
     for prefix, own in (images or {}).items():
         for image in own:
-            _put(found, prefix, asdict(image))
+            put(found, prefix, asdict(image))
     if gates is not None:
         held = {key: value for key, value in asdict(gates).items() if key != "reasons"}
-        _put(found, "gates", {**held, "passed": gates.passed})
+        put(found, "gates", {**held, "passed": gates.passed})
     return Record(
         name=true.name,
         category=true.category,
@@ -143,6 +136,23 @@ def score(
         joints=joint_errors(predicted, true, matchings["nearest"]),
         reasons={} if gates is None else gates.reasons,
     )
+
+
+def matched_values(
+    predicted: Layout, true: Layout, matchings: Mapping[str, Matching], *, mask_pixels: int
+) -> Values:
+    """Boxes, joints, observed states and, where their images have pixels, masks of parts, under
+    each of some matchings; both layouts in radii."""
+    found: Values = {}
+    for name, matching in matchings.items():
+        put(found, f"singapo.honest.{name}", asdict(honest(predicted, true, matching)))
+        _put_joints(found, f"joints.{name}", joint_errors(predicted, true, matching))
+        put(found, f"states.{name}", {"center": state_centers(predicted, true, matching)})
+    if mask_pixels:
+        seen = mask_scores(predicted, true, matchings, pixels=mask_pixels)
+        for name, masks in seen.items():
+            put(found, f"masks.{name}", asdict(masks))
+    return found
 
 
 def aligned(predicted: Layout, true: Layout, align: Align) -> Layout:
@@ -161,7 +171,8 @@ def in_radii(predicted: Layout, true: Layout) -> tuple[Layout, Layout]:
     return placed(predicted, scale=scale, shift=shift), placed(true, scale=scale, shift=shift)
 
 
-def _nearest(predicted: Layout, true: Layout) -> Matching:
+def nearest(predicted: Layout, true: Layout) -> Matching:
+    """Pairs of parts by the middles of their boxes, the bases paired beforehand."""
     return by_nearness(predicted.centers, true.centers)
 
 
@@ -176,7 +187,7 @@ def _published(predicted: Layout, true: Layout, protocol: Protocol) -> dict[str,
     }
 
 
-def _put(found: Values, prefix: str, scores: Mapping[str, float | bool | None]) -> None:
+def put(found: Values, prefix: str, scores: Mapping[str, float | bool | None]) -> None:
     """Append what is known."""
     for name, value in scores.items():
         if value is not None and np.isfinite(value):
@@ -186,17 +197,17 @@ def _put(found: Values, prefix: str, scores: Mapping[str, float | bool | None]) 
 def _put_joints(found: Values, prefix: str, rows: Sequence[JointErrors]) -> None:
     names = [own.name for own in fields(JointErrors) if own.name != "part"]
     for row in rows:
-        _put(found, prefix, {name: getattr(row, name) for name in names})
+        put(found, prefix, {name: getattr(row, name) for name in names})
 
 
 def _put_particulate(found: Values, scores: ParticulateScores) -> None:
     for own in fields(ParticulateScores):
         value = getattr(scores, own.name)
         if isinstance(value, Punished):
-            _put(found, "particulate", {own.name: value.punished})
-            _put(found, "particulate.pairs", {own.name: value.pairs})
+            put(found, "particulate", {own.name: value.punished})
+            put(found, "particulate.pairs", {own.name: value.pairs})
         else:
-            _put(found, "particulate", {own.name: value})
+            put(found, "particulate", {own.name: value})
 
 
 def _put_surfaces(found: Values, predicted: Layout, true: Layout, protocol: Protocol) -> None:
@@ -212,12 +223,12 @@ def _put_surfaces(found: Values, predicted: Layout, true: Layout, protocol: Prot
             sampled(triangles, protocol.points, stream.child(name, side).generator())
             for side, triangles in (("predicted", mine), ("true", theirs))
         ]
-        _put(found, f"surfaces.{name}", _flat(compared(clouds[0], clouds[1])))
+        put(found, f"surfaces.{name}", _flat(compared(clouds[0], clouds[1])))
         if name == "rest":
             again = sampled(theirs, protocol.points, stream.child("floor").generator())
             floor = _flat(compared(again, clouds[1]))
             wanted = ("chamfer_l1", "chamfer_squared")
-            _put(found, "surfaces.floor", {key: floor[key] for key in wanted})
+            put(found, "surfaces.floor", {key: floor[key] for key in wanted})
 
 
 def _flat(scores: SurfaceScores) -> dict[str, float]:

@@ -5,11 +5,7 @@ from pathlib import Path
 
 from artgen.dataset.split import Split
 from model.evaluation.network_run import NetworkRun
-from model.evaluation.score import Protocol
 from model.training_study.scores import Score, kept_score, scored
-
-POINTS = 2_000
-"""Over a surface; paired differences need fewer than published figures."""
 
 ALL = 1_000_000
 """Training objects of a baseline at most."""
@@ -39,7 +35,7 @@ class Judge:
 
     def score(self, who: str, folder: Path, *, shapes: bool, train: Path | None = None) -> Score:
         """What a network file, or a baseline that learns from `train`, is worth."""
-        return scored(self._asked(who, shapes, train), self._protocol(shapes), folder)
+        return scored(self._asked(who, shapes, train), folder, mask_pixels=self._pixels(shapes))
 
     def kept(
         self, who: str, folder: Path, *, shapes: bool, train: Path | None = None
@@ -47,7 +43,8 @@ class Judge:
         """The same, where it was judged before."""
         if train is None and not Path(who).exists():
             return None
-        return kept_score(self._asked(who, shapes, train), self._protocol(shapes), folder)
+        asked = self._asked(who, shapes, train)
+        return kept_score(asked, folder, mask_pixels=self._pixels(shapes))
 
     def _asked(self, who: str, shapes: bool, train: Path | None) -> NetworkRun:
         return NetworkRun(
@@ -68,6 +65,5 @@ class Judge:
             pose_noise=self.pose_noise,
         )
 
-    def _protocol(self, shapes: bool) -> Protocol:
-        pixels = self.mask_pixels if shapes else 0
-        return Protocol(points=POINTS, part_points=POINTS, mask_pixels=pixels)
+    def _pixels(self, shapes: bool) -> int:
+        return self.mask_pixels if shapes else 0

@@ -1,16 +1,26 @@
-"""The score of a network: every metric of every held-out object, kept as one JSON."""
+"""The score of a network: metrics of every held-out object, kept as one JSON.
+
+Of what `artgen evaluate` measures, studies ask only for what compares runs, which costs a tenth.
+"""
 
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
+import torch
 
+from artgen.core.errors import ArtgenError
 from artgen.core.jsonio import content_hash, file_hash, plain, write_json
-from model.evaluation.network_run import NetworkRun, run
-from model.evaluation.score import Protocol
+from artgen.progress import progress
+from model.evaluation.held_out import HeldOut, held_out
+from model.evaluation.metrics import METRICS
+from model.evaluation.network_run import NetworkRun, made_predictor, opened
+from model.evaluation.predictors import Guess, Predictor
+from model.evaluation.reshape import rebased
+from model.evaluation.score import Values, in_radii, matched_values, nearest, put
 
 SCHEMA = "artgen-training-score/1"
 FILE = "score.json"
@@ -21,7 +31,8 @@ ByObject = Mapping[str, float]
 
 @dataclass(frozen=True, kw_only=True)
 class Score:
-    """What one network, or baseline, is worth on one set of objects.
+    """What one network, or baseline, is worth on one set of objects; an object without a prediction
+    counts with the worst value of every metric whose scale has an end.
 
     Attributes:
         metrics: name of `model.evaluation.metrics.METRICS` to the objects that have values of it.
@@ -39,41 +50,64 @@ class Score:
         return float(np.mean(values)) if values else math.nan
 
 
-def scored(asked: NetworkRun, protocol: Protocol, folder: Path) -> Score:
-    """Judge a network, or read what was judged before: `score.json` and a record an object."""
-    if found := kept_score(asked, protocol, folder):
+def scored(asked: NetworkRun, folder: Path, *, mask_pixels: int) -> Score:
+    """Judge a network, or read what was judged before; kept as `score.json`."""
+    if found := kept_score(asked, folder, mask_pixels=mask_pixels):
         return found
-    records = run(asked, protocol, folder / "objects")
-    by_metric: dict[str, dict[str, float]] = {}
-    for record in records:
-        for name, values in record.metrics.items():
-            if len(values):
-                by_metric.setdefault(name, {})[record.name] = float(np.mean(values))
-    score = Score(
-        metrics=by_metric,
-        objects=len(records),
-        failures={r.name: r.failure for r in records if r.failure is not None},
-    )
-    body = {"schema": SCHEMA, "key": _key(asked, protocol), "score": score}
+    score = _judged(asked, mask_pixels)
+    body = {"schema": SCHEMA, "key": _key(asked, mask_pixels), "score": score}
     write_json(folder / FILE, body)
     return score
 
 
-def kept_score(asked: NetworkRun, protocol: Protocol, folder: Path) -> Score | None:
+def kept_score(asked: NetworkRun, folder: Path, *, mask_pixels: int) -> Score | None:
     """What was judged before, where nothing that it depends on has changed."""
     try:
         found = json.loads((folder / FILE).read_text(encoding="utf-8"))
-        return Score(**found["score"]) if found["key"] == _key(asked, protocol) else None
+        return Score(**found["score"]) if found["key"] == _key(asked, mask_pixels) else None
     except (OSError, ValueError, KeyError, TypeError):
         return None
 
 
-def _key(asked: NetworkRun, protocol: Protocol) -> str:
+@torch.no_grad()
+def _judged(asked: NetworkRun, mask_pixels: int) -> Score:
+    predictor, config = made_predictor(asked)
+    source = opened(asked.truth, asked.split, config.slots)
+    by_metric: dict[str, dict[str, float]] = {}
+    failures, total = {}, min(asked.count, len(source))
+    with progress("objects", total) as advance:
+        for item in held_out(source, config, count=asked.count):
+            try:
+                found = values_of(predictor, item, mask_pixels=mask_pixels)
+            except ArtgenError as error:
+                failures[item.name], found = str(error), {}
+            for name, values in found.items():
+                by_metric.setdefault(name, {})[item.name] = float(np.mean(values))
+            advance(item.name)
+    for name, values_by_object in by_metric.items():
+        worst = METRICS[name].worst
+        values_by_object |= {} if worst is None else dict.fromkeys(failures, worst)
+    return Score(metrics=by_metric, objects=total, failures=failures)
+
+
+def values_of(predictor: Predictor, item: HeldOut, *, mask_pixels: int) -> Values:
+    """Metrics of one object, parts matched by nearness."""
+    guess: Guess = predictor(item)
+    true = item.layout if guess.rest is None else rebased(item.layout, guess.rest)
+    predicted, true = in_radii(guess.layout, true)
+    pairs = {"nearest": nearest(predicted, true)}
+    found = matched_values(predicted, true, pairs, mask_pixels=mask_pixels)
+    for prefix, images in guess.images.items():
+        for image in images:
+            put(found, prefix, asdict(image))
+    return found
+
+
+def _key(asked: NetworkRun, mask_pixels: int) -> str:
     """What a score depends on; folders of shards are told apart by their paths alone."""
     places = {name: getattr(asked, name) for name in ("predictions", "truth", "train")}
     hashes = {
         name: file_hash(Path(own)) if own is not None and Path(own).is_file() else str(own)
         for name, own in places.items()
     }
-    stated = {**plain(asked), **hashes}
-    return content_hash([SCHEMA, stated, protocol])
+    return content_hash([SCHEMA, {**plain(asked), **hashes}, mask_pixels])
