@@ -3,7 +3,6 @@
 import dataclasses
 import json
 import os
-import shutil
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -25,7 +24,7 @@ from artgen.finish_jobs import RoundJob, read_bodies, write_bodies
 from artgen.generators import load_builder
 from artgen.pool import run_in_processes
 from artgen.rules import CategoryRule, Override, load_rule, overridden, sample
-from artgen.run_folder import RunFolder
+from artgen.run_folder import RunFolder, settled
 from artgen.textures.library import TextureLibrary
 from artgen.validate import validate_bundle
 from artgen.worker import BlenderWorker
@@ -201,8 +200,7 @@ def landed(
     home, other = place(tools.folder.assets), place(tools.folder.failed)
     if messages:
         home, other = other, home
-    _move(staged, home)
-    shutil.rmtree(other, ignore_errors=True)
+    settled(staged, home=home, other=other)
     return Outcome(
         asset_id=obj.asset_id,
         status="failed" if messages else "made",
@@ -254,14 +252,6 @@ def rounded(bodies: Sequence[RawBody], tools: Toolbox) -> list[tuple[Floats, Int
         )
         tools.blender.run(plain(job), timeout_s=ROUND_TIMEOUT_S)
         return [(v, np.asarray(f, np.int32)) for v, f in read_bodies(Path(job.output))[0]]
-
-
-def _move(staged: Path, home: Path) -> None:
-    """One rename; what stood there before is removed first."""
-    home.parent.mkdir(parents=True, exist_ok=True)
-    if home.exists():
-        shutil.rmtree(home)
-    staged.rename(home)
 
 
 _tools: Toolbox | None = None

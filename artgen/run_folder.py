@@ -112,6 +112,15 @@ def locked(root: Path) -> Iterator[None]:
         ) from error
 
 
+def settled(staged: Path, *, home: Path, other: Path) -> None:
+    """Move a staged folder home by one rename; what stood there before is removed first, and what
+    an earlier run left in the other place afterwards."""
+    home.parent.mkdir(parents=True, exist_ok=True)
+    shutil.rmtree(home, ignore_errors=True)
+    staged.rename(home)
+    shutil.rmtree(other, ignore_errors=True)
+
+
 def run_log(folder: RunFolder) -> logging.Logger:
     """The logger that appends to logs/run.log."""
     folder.logs.mkdir(parents=True, exist_ok=True)

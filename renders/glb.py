@@ -1,51 +1,19 @@
 """The GLB of a bundle as arrays: what each part's triangles look like, texture by texture."""
 
 import io
-import json
-import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from artgen.core.conventions import Y_UP_FROM_Z_UP
-from artgen.core.errors import RenderError
-from artgen.core.mesh import Floats
+from artgen.core.errors import ExportError, RenderError
 from artgen.core.surface import SurfaceSpec
+from artgen.export.glb_content import Skin, read_glb
 
 Bytes = NDArray[np.uint8]
-TURN = Y_UP_FROM_Z_UP[:3, :3]
-COMPONENT: Mapping[int, np.dtype[Any]] = {
-    5123: np.dtype("<u2"),
-    5125: np.dtype("<u4"),
-    5126: np.dtype("<f4"),
-}
-COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Skin:
-    """Triangles of one part that share a surface.
-
-    Attributes:
-        part: name of the part.
-        surface: name of the surface.
-        vertices: (N, 3) m, object frame at rest.
-        normals: (N, 3) unit.
-        uv: (N, 2) in copies of the surface's images; v points **down**, as glTF stores it.
-        faces: (F, 3) int32.
-    """
-
-    part: str
-    surface: str
-    vertices: Floats
-    normals: Floats
-    uv: Floats
-    faces: NDArray[np.int32]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -85,9 +53,21 @@ def read_appearance(path: Path) -> Appearance:
         RenderError: the file is missing, damaged, or not one that artgen wrote.
     """
     try:
-        return _Reader(path.read_bytes()).appearance()
-    except (OSError, KeyError, IndexError, TypeError, ValueError, struct.error) as error:
+        content = read_glb(path)
+        looks = {
+            surface: Look(**{kind: _decoded(image) for kind, image in images.items()})
+            for surface, images in content.images.items()
+        }
+    except ExportError as error:
+        raise RenderError(str(error)) from error
+    except (OSError, ValueError) as error:
         raise RenderError(f"{path} cannot be read ({error!r}); generate the asset anew") from error
+    return Appearance(skins=content.skins, looks=looks)
+
+
+def _decoded(content: bytes) -> Bytes:
+    with Image.open(io.BytesIO(content)) as image:
+        return np.asarray(image.convert("RGB"))
 
 
 def surfaces_by_name(
@@ -105,72 +85,3 @@ def surfaces_by_name(
             f"{', '.join(known)}; generate the asset anew"
         )
     return known
-
-
-class _Reader:
-    """The JSON chunk and the binary chunk of one file (glTF 2.0, section 4.4)."""
-
-    def __init__(self, content: bytes) -> None:
-        magic, _, length = struct.unpack_from("<4sII", content)
-        if magic != b"glTF" or length != len(content):
-            raise ValueError(f"{len(content)} bytes are no whole GLB")
-        size = struct.unpack_from("<I", content, 12)[0]
-        self.document: dict[str, Any] = json.loads(content[20 : 20 + size])
-        self.binary = memoryview(content)[28 + size :]
-
-    def appearance(self) -> Appearance:
-        materials = self.document.get("materials", [])
-        skins, waiting = [], [(root, np.zeros(3)) for root in self.document["scenes"][0]["nodes"]]
-        while waiting:
-            index, frame = waiting.pop(0)
-            node = self.document["nodes"][index]
-            if node.keys() & {"rotation", "scale", "matrix"}:
-                raise ValueError(f"node {node['name']} is turned; only translations are read")
-            origin = frame + np.array(node.get("translation", (0.0, 0.0, 0.0)))
-            waiting += [(child, origin) for child in node.get("children", ())]
-            if "mesh" in node:
-                for primitive in self.document["meshes"][node["mesh"]]["primitives"]:
-                    surface = materials[primitive["material"]]["name"]
-                    skins.append(self._skin(primitive, node["name"], surface, origin))
-        looks = {material["name"]: self._look(material) for material in materials}
-        return Appearance(skins=tuple(skins), looks=looks)
-
-    def _skin(self, primitive: dict[str, Any], part: str, surface: str, origin: Floats) -> Skin:
-        own = primitive["attributes"]
-        vertices = self._table(own["POSITION"]).astype(np.float64) + origin
-        return Skin(
-            part=part,
-            surface=surface,
-            vertices=vertices @ TURN,
-            normals=self._table(own["NORMAL"]).astype(np.float64) @ TURN,
-            uv=self._table(own["TEXCOORD_0"]).astype(np.float64),
-            faces=self._table(primitive["indices"]).reshape(-1, 3).astype(np.int32),
-        )
-
-    def _table(self, index: int) -> NDArray[Any]:
-        accessor = self.document["accessors"][index]
-        view = self.document["bufferViews"][accessor["bufferView"]]
-        kind, columns = COMPONENT[accessor["componentType"]], COLUMNS[accessor["type"]]
-        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        if view.get("byteStride", kind.itemsize * columns) != kind.itemsize * columns:
-            raise ValueError("interleaved arrays are not read")
-        flat = np.frombuffer(self.binary, kind, accessor["count"] * columns, start)
-        return flat.reshape(-1, columns)
-
-    def _look(self, material: dict[str, Any]) -> Look:
-        physical = material.get("pbrMetallicRoughness", {})
-        return Look(
-            color=self._image(physical.get("baseColorTexture")),
-            orm=self._image(physical.get("metallicRoughnessTexture")),
-            normal=self._image(material.get("normalTexture")),
-            emission=self._image(material.get("emissiveTexture")),
-        )
-
-    def _image(self, texture: dict[str, Any] | None) -> Bytes | None:
-        if texture is None:
-            return None
-        source = self.document["textures"][texture["index"]]["source"]
-        view = self.document["bufferViews"][self.document["images"][source]["bufferView"]]
-        start = view.get("byteOffset", 0)
-        with Image.open(io.BytesIO(self.binary[start : start + view["byteLength"]])) as image:
-            return np.asarray(image.convert("RGB"))

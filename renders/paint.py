@@ -9,8 +9,9 @@ from scipy.spatial import cKDTree
 from artgen.core.errors import RenderError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
+from artgen.export.glb_content import Skin
 from artgen.imaging import srgb_from_linear
-from renders.glb import Appearance, Skin, surfaces_by_name
+from renders.glb import Appearance, surfaces_by_name
 from renders.raycast import Hits, barycentric
 
 Bytes = NDArray[np.uint8]

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from artgen.articulation.types import ArticulatedObject, Part
-from artgen.assembly.glb_arrays import Primitive, read_primitives
 from artgen.core.conventions import UV_DECIMALS
 from artgen.core.errors import ExportError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
 from artgen.export import read_bundle
+from artgen.export.glb_content import Skin, read_glb
 from artgen.export.layout import GLB
 
 APART = 4e-6
@@ -31,10 +31,10 @@ def finished_object(folder: Path) -> ArticulatedObject:
         ExportError: the bundle is damaged, or its GLB shows other triangles than its OBJ files.
     """
     bundle = read_bundle(folder)
-    primitives = read_primitives(folder / GLB)
+    skins = read_glb(folder / GLB).skins
     parts = []
     for part in bundle.parts:
-        own = [primitive for primitive in primitives if primitive.part == part.name]
+        own = [skin for skin in skins if skin.part == part.name]
         mesh = bundle.load_mesh(part.name)
         parts.append(
             Part(
@@ -59,18 +59,19 @@ def finished_object(folder: Path) -> ArticulatedObject:
 
 
 def _with_looks(
-    mesh: TriMesh, primitives: Sequence[Primitive], surfaces: Sequence[SurfaceSpec], *, where: str
+    mesh: TriMesh, skins: Sequence[Skin], surfaces: Sequence[SurfaceSpec], *, where: str
 ) -> TriMesh:
     """The mesh with UV in m and slots, taken from the triangles at the same place."""
-    if sum(len(p.corners) for p in primitives) != len(mesh.faces):
+    if sum(len(skin.faces) for skin in skins) != len(mesh.faces):
         raise ExportError(f"{where}: GLB and OBJ have other triangles; export the asset anew")
     slots = {surface.name: k for k, surface in enumerate(surfaces)}
     numbers = np.repeat(
-        [slots[p.surface] for p in primitives], [len(p.corners) for p in primitives]
+        [slots[skin.surface] for skin in skins], [len(skin.faces) for skin in skins]
     )
     tiles = np.array([surface.tile for surface in surfaces])
-    corners = np.concatenate([p.corners for p in primitives])
-    uv = np.concatenate([p.uv for p in primitives]) * tiles[numbers][:, None, :]
+    corners = np.concatenate([skin.vertices[skin.faces] for skin in skins])
+    upward = [(skin.uv * (1.0, -1.0) + (0.0, 1.0))[skin.faces] for skin in skins]
+    uv = np.concatenate(upward) * tiles[numbers][:, None, :]
     nearest = _matched(mesh.triangles, corners, where)
     turn = _turns(mesh.triangles, corners[nearest])
     index = (np.arange(3) + turn[:, None]) % 3

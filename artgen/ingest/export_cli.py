@@ -12,10 +12,10 @@ from artgen.assembly.finished import finished_object
 from artgen.assembly.licence import licence_of
 from artgen.core.errors import ArtgenError, UsageError
 from artgen.core.jsonio import fill_folder_atomically
+from artgen.export.glb_content import read_glb
 from artgen.export.layout import GLB, MANIFEST
 from artgen.export.partnet.write import write_partnet
 from artgen.ingest.cli import dispatched
-from artgen.ingest.glb_images import color_images
 from artgen.progress import progress
 
 USAGE = """\
@@ -94,7 +94,8 @@ def export_bundle(bundle: Path, out: Path, *, doubled: bool) -> bool:
     home = out / obj.asset_id
     if home.exists():
         return False
-    images = color_images(bundle / GLB)
+    content = read_glb(bundle / GLB)
+    images = {name: own["color"] for name, own in content.images.items() if "color" in own}
     terms = licence_of(obj.provenance)
     fill_folder_atomically(
         home, lambda partial: write_partnet(obj, partial, images, doubled=doubled, licence=terms)

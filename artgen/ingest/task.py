@@ -3,7 +3,6 @@
 import dataclasses
 import os
 import re
-import shutil
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -21,6 +20,7 @@ from artgen.ingest.passages import with_passages
 from artgen.ingest.static import read_static
 from artgen.ingest.urdf import read_urdf
 from artgen.pipeline import Toolbox
+from artgen.run_folder import settled
 from artgen.validate import Report, validate_bundle
 
 Kind = Literal["partnet", "urdf", "static"]
@@ -125,8 +125,7 @@ def _written(task: IngestTask, built: Built, tools: Toolbox) -> Outcome:
         folder.failed / obj.category / task.asset_id,
     )
     home, other = reversed(homes) if status == "refused" else homes
-    _move(staged, home)
-    shutil.rmtree(other, ignore_errors=True)
+    settled(staged, home=home, other=other)
     keys = ("source", "licence", "scale", "joints_read", "mended", "dropped", "doubts", "art")
     return Outcome(
         asset_id=task.asset_id,
@@ -153,11 +152,3 @@ def verdict(report: Report) -> tuple[Status, str]:
     more = len(report.findings) - len(shown)
     line = "; ".join(str(finding) for finding in shown) + (f"; {more} more" if more else "")
     return ("refused" if grave else "flawed"), line
-
-
-def _move(staged: Path, home: Path) -> None:
-    """One rename; what stood there before is removed first."""
-    home.parent.mkdir(parents=True, exist_ok=True)
-    if home.exists():
-        shutil.rmtree(home)
-    staged.rename(home)

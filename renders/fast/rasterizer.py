@@ -11,13 +11,14 @@ from artgen.core.errors import RenderError
 from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
 from artgen.core.transform import apply
+from artgen.export.glb_content import Skin
 from artgen.imaging import Singles
 from artgen.transport import CLEAR
 from renders.fast.filtered import split_sum
 from renders.fast.light import Shine
 from renders.fast.occlusion import Occlusion, sky_factors
 from renders.fast.shaders import DEFINES, OPAQUE, PANE, VERTEX
-from renders.glb import Appearance, Look, Skin
+from renders.glb import Appearance, Look
 
 Box = tuple[int, int, int, int]
 Owned = (

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from artgen.core.mesh import Floats
+from artgen.export.glb_content import Skin
 from artgen.render_job import Shot
 from renders.fast.light import Shine
 from renders.fast.occlusion import Cloud, Occlusion, fitted, occlusion, strewn
-from renders.glb import Skin
 
 PX_PER_CELL = 5
 """Grids are as fine as images: this many pixels a cell, along a cube's side, within bounds."""

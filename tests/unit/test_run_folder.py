@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from artgen.core.errors import UsageError
-from artgen.run_folder import SCHEMA, locked, opened
+from artgen.run_folder import SCHEMA, locked, opened, settled
 
 HOLDER = """
 import sys, time
 from pathlib import Path
-from artgen.run_folder import opened
+from artgen.run_folder import opened, settled
 with opened(Path(sys.argv[1]), seed=0):
     print("held", flush=True)
     sys.stdin.read()
@@ -89,3 +89,15 @@ def test_too_little_space_is_said_before_anything_is_made(tmp_path: Path) -> Non
     with pytest.raises(UsageError, match=r"MB free, about \d+ MB needed"):
         opened(tmp_path / "out", seed=0, need_bytes=10**18).__enter__()
     assert not (tmp_path / "out" / "assets").exists()
+
+
+def test_a_staged_folder_comes_home_alone(tmp_path: Path) -> None:
+    """Neither the old content at home nor an earlier run's in the other place stays."""
+    staged, home, other = tmp_path / "staged", tmp_path / "assets/x/0", tmp_path / "failed/x/0"
+    for folder, name in ((staged, "new"), (home, "old"), (other, "older")):
+        folder.mkdir(parents=True)
+        (folder / name).write_text(name)
+    settled(staged, home=home, other=other)
+    assert [path.name for path in home.iterdir()] == ["new"]
+    assert not staged.exists()
+    assert not other.exists()

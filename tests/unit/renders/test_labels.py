@@ -21,11 +21,12 @@ from artgen.core.surface import SurfaceSpec, linear_from_srgb, srgb_hex
 from artgen.core.transform import apply, rigid
 from artgen.dataset.sample import BACKGROUND
 from artgen.export import Bundle
+from artgen.export.glb_content import Skin
 from artgen.geometry.solid import box
 from artgen.render_job import RenderJob
 from artgen.worker import BlenderWorker
 from renders.collect import cast
-from renders.glb import Appearance, Look, Skin
+from renders.glb import Appearance, Look
 from renders.labels import Labels, cast_labels
 from renders.paint import Paint, sampled
 from renders.plan import plan_render

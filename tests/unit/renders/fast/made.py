@@ -8,12 +8,13 @@ import numpy as np
 from artgen.core.camera import Camera, framed, orbit_direction
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
+from artgen.export.glb_content import Skin
 from artgen.geometry.normals import corner_normals
 from artgen.geometry.solid import Solid
 from artgen.imaging import Singles
 from artgen.render_job import AreaLight, LightRig, Shot, Sky
 from renders.fast.backend import FastBackend
-from renders.glb import Appearance, Look, Skin
+from renders.glb import Appearance, Look
 
 SIZE = 48
 DARK = Sky(nadir=(0.0,) * 3, horizon=(0.0,) * 3, zenith=(0.0,) * 3)

@@ -9,6 +9,7 @@ import pytest
 
 from artgen.core.errors import RenderError
 from artgen.core.surface import SurfaceSpec
+from artgen.export.glb_content import Skin
 from artgen.geometry.solid import box, cylinder
 from artgen.imaging import Singles
 from artgen.render_job import Environment, LightRig, Sky
@@ -22,7 +23,7 @@ from renders.fast.filtered import (
     split_sum,
     white_wall,
 )
-from renders.glb import Appearance, Look, Skin, surfaces_by_name
+from renders.glb import Appearance, Look, surfaces_by_name
 from tests.unit.renders.fast.made import DARK, EVEN, SIZE, camera, drawn, lamp, matte, shot, skin
 
 MIDDLE = (slice(SIZE // 2 - 2, SIZE // 2 + 2),) * 2
