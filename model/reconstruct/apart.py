@@ -38,6 +38,8 @@ MOST_GIVEN = 0.5
 """The same where its way would else be all but lost."""
 LEAST_LEFT = 0.4
 """Share of its way that a joint keeps at least, if cutting can help it."""
+HARDLY = 0.002
+"""Share of its volume that a part may lose without a word."""
 KEPT = 0.95
 """Share of its volume that a part has kept where its cover still serves."""
 SLACK = 0.1
@@ -129,7 +131,7 @@ def _given_way(scene: Scene, cutter: Cutter, loses: str, wins: str) -> Scene:
     left = cutter.mended(whole - union(cutter.tool(scene, wins)))
     share = 1.0 - left.volume / whole.volume
     told = f"{loses} gave way to {wins} at rest, by {share:.1%} of its volume"
-    return scene.with_solid(loses, left).told(told)
+    return scene.with_solid(loses, left).told(*([told] if share > HARDLY else []))
 
 
 def ranked(scene: Scene, one: str, other: str) -> tuple[str, str]:
@@ -174,7 +176,9 @@ def _cleared(scene: Scene, cutter: Cutter, sweep: Sweep, pair: tuple[str, str]) 
     left = whole - swept(tool, _around(course, met), within=whole.bounds)
     share = 1.0 - left.volume / whole.volume
     cut = scene.with_solid(loses, cutter.mended(left)) if share <= MOST_GIVEN else scene
-    cut = cut.told(f"{loses} gave way to {wins} along {sweep.joint}, by {share:.1%} of its volume")
+    if share > HARDLY:
+        told = f"{loses} gave way to {wins} along {sweep.joint}, by {share:.1%} of its volume"
+        cut = cut.told(told)
     if not len(deep) and share <= MOST_EATEN:
         return cut
     if loses not in scene.carriers(wins) and (waits := _waiting(scene, cutter, sweep, pair)):

@@ -35,7 +35,7 @@ from artgen.geometry.solid import Solid
 from artgen.textures.images import Image, TextureSet
 from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways, made_sound
 from model.reconstruct.contact import contact_pieces
-from model.reconstruct.guess import ColorAt, ObjectGuess, PartGuess
+from model.reconstruct.guess import ColorAt, ObjectGuess, PartGuess, Told
 from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
 from model.reconstruct.physics import DENSITY, LEAST, forces, weights
 from model.reconstruct.proof import proven
@@ -129,11 +129,11 @@ def assemble(
     solids, told = _solids(guess, {joint.guess.slot: joint.guess.parent for joint in joints})
     names = _names(solids)
     for joint in joints:
-        told += [f"{names[joint.guess.slot]}: {change}" for change in joint.changes]
+        told += [(joint.guess.slot, change) for change in joint.changes]
     scene = Scene(
         solids={names[slot]: solids[slot] for slot in names},
         joints=tuple(_stated(joint, names) for joint in joints),
-        changes=tuple(told),
+        changes=tuple(f"{names.get(slot, f'slot {slot}')}: {text}" for slot, text in told),
     )
     cutter = Cutter(wishes.clearance)
     scene = seated(apart_at_rest(scene, cutter))
@@ -163,26 +163,26 @@ def assemble(
     )
 
 
-def _solids(guess: ObjectGuess, carriers: Mapping[int, int]) -> tuple[dict[int, Solid], list[str]]:
+def _solids(guess: ObjectGuess, carriers: Mapping[int, int]) -> tuple[dict[int, Solid], list[Told]]:
     """Slot to solid, the base first; parts that do not move become pieces of the base.
 
     Args:
         carriers: moving slot to the slot that carries it.
     """
-    told: list[str] = []
+    told = list(guess.told)
     share = MOST_TRIANGLES // (len(guess.parts) + 1)
     budgets = {part.slot: share * (2 if part.slot == 0 else 1) for part in guess.parts}
     found: dict[int, Solid] = {}
     for part in guess.parts:
         shape = shape_of(part, tolerance=TOLERANCE * guess.radius, triangles=budgets[part.slot])
-        told += [f"slot {part.slot}: {change}" for change in shape.changes]
+        told += [(part.slot, change) for change in shape.changes]
         found[part.slot] = shape.solid
     guesses = {part.slot: part for part in guess.parts}
     found, replaced = sensible(found, guesses, budgets, carriers)
     solids = {slot: solid for slot, solid in found.items() if slot == 0 or slot in carriers}
     for slot in found.keys() - solids.keys():
         solids[0] = solids[0] | found[slot]
-        told.append(f"slot {slot} does not move and became a piece of the base")
+        told.append((slot, "it does not move and became a piece of the base"))
     return solids, told + replaced
 
 

@@ -13,6 +13,8 @@ from model.reconstruct.sight import Sphere
 
 SLACK_DEG = 8.0
 """By which a view may lie outside of what training draws; photographs are framed by eye."""
+MOST_TRIED = 6
+"""Sets of views that the network is shown."""
 MOST_SETS = 5000
 """Sets of views that are compared; more views than that are thinned evenly first."""
 
@@ -22,10 +24,12 @@ class Choice:
     """Views by their number in each state.
 
     Attributes:
+        others: sets as good, but for being less spread, widest first; at most `MOST_TRIED`.
         told: what a user should know, a sentence each.
     """
 
     views: tuple[int, ...]
+    others: tuple[tuple[int, ...], ...] = ()
     told: tuple[str, ...]
 
 
@@ -44,7 +48,8 @@ def chosen_views(capture: Capture, sphere: Sphere, data: DataConfig) -> Choice:
             f"{off[worst]:.0f} degrees off that, so expect less of the result",
         )
         return Choice(views=views, told=told if off[worst] > SLACK_DEG else ())
-    return Choice(views=widest(ways, known, count), told=())
+    first, *others = widest(ways, known, count)
+    return Choice(views=first, others=tuple(others), told=())
 
 
 def view_directions(capture: Capture, sphere: Sphere) -> Floats:
@@ -65,16 +70,18 @@ def strangeness_deg(way: Floats, data: DataConfig) -> float:
     return max(azimuth - data.azimuth_deg, low - elevation, elevation - high, 0.0)
 
 
-def widest(ways: Floats, known: list[int], count: int) -> tuple[int, ...]:
-    """The views among `known` whose two closest directions lie farthest apart."""
+def widest(ways: Floats, known: list[int], count: int) -> list[tuple[int, ...]]:
+    """Sets of views among `known`, those first whose two closest directions lie farthest apart."""
     while math.comb(len(known), count) > MOST_SETS:
         left = max(len(known) // 2, count)
         known = [known[k] for k in np.linspace(0, len(known) - 1, left).astype(int)]
     if count == 1:
-        return (min(known, key=lambda view: (ways[view][1], view)),)
+        nearest = sorted(known, key=lambda view: (float(ways[view][1]), view))
+        return [(view,) for view in nearest[:MOST_TRIED]]
     cosines = ways @ ways.T
 
     def closest(views: tuple[int, ...]) -> float:
         return max(float(cosines[a, b]) for a, b in combinations(views, 2))
 
-    return min(combinations(known, count), key=lambda views: (round(closest(views), 9), views))
+    ranked = sorted(combinations(known, count), key=lambda views: (round(closest(views), 9), views))
+    return ranked[:MOST_TRIED]

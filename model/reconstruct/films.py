@@ -56,7 +56,12 @@ def _ball(points: Floats) -> Floats:
     """Points of a sphere around others, so that a camera around it keeps its distance."""
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     reach = float(np.linalg.norm(points - middle, axis=1).max())
-    return np.asarray(middle + reach * np.concatenate([np.eye(3), -np.eye(3)]))
+    turns = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
+    rings = [
+        [np.cos(turns) * math.cos(v), np.sin(turns) * math.cos(v), np.full(24, math.sin(v))]
+        for v in np.linspace(-math.pi / 2.0, math.pi / 2.0, 13)
+    ]
+    return np.asarray(middle + reach * np.concatenate([np.array(ring).T for ring in rings]))
 
 
 def strokes(obj: ArticulatedObject) -> list[dict[str, float]]:

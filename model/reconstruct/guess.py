@@ -16,6 +16,8 @@ from model.batch import FIXED, PRISMATIC, Articulation
 TYPES: Mapping[int, JointType] = {1: "revolute", 2: "prismatic"}
 ColorAt = Callable[[Floats], Floats]
 """(N, 3) points, m, to (N, 3) sRGB in [0, 1]."""
+Told = tuple[int, str]
+"""A slot, and a sentence about its part."""
 GRAY = 0.62
 """sRGB of what no image and no field gives a color."""
 
@@ -31,7 +33,7 @@ class PartGuess:
         rgb: (V, 3) sRGB in [0, 1].
         box: (2, 3) the box that the heads predict, m; it stands for a part without a surface.
         shade: its color at any point, m; None where there are those of the vertices alone.
-        found: whether the surface was found in a field that was searched.
+        boxed: whether it is a rounded box of the predicted size instead of a surface of a field.
     """
 
     slot: int
@@ -40,7 +42,7 @@ class PartGuess:
     rgb: Floats
     box: Floats
     shade: ColorAt | None = None
-    found: bool = True
+    boxed: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -72,11 +74,13 @@ class ObjectGuess:
 
     Attributes:
         radius: of the sphere that positions were divided by, m.
+        told: slots, and what was made of the prediction there so far.
     """
 
     parts: tuple[PartGuess, ...]
     joints: tuple[JointGuess, ...]
     radius: float
+    told: tuple[Told, ...] = ()
 
 
 Surface = tuple[Floats, Ints, Floats]

@@ -21,6 +21,8 @@ TWO_WAYS = 0.35
 """Share of its range that a joint goes backward at least, if it rests in the middle."""
 LEAST_TURN = 0.1
 """rad; twice the least that validators take for a joint."""
+HARDLY = 0.02
+"""Share of its range by which a joint may go beyond rest without a word."""
 ENDLESS = 0.97
 """Share of a full turn beyond which a joint has no ends: wheels, dials, turntables."""
 LEAST_SLIDE = 0.004
@@ -107,7 +109,7 @@ def rested(
         if both != -lower or both != upper:
             changes.append(f"it goes both ways; its ends were set to -{both:.4g} and {both:.4g}")
         return -both, both
-    if lower < 0.0:
+    if lower < -HARDLY * (upper - lower):
         changes.append(f"the {-lower:.4g} by which it went beyond rest were cut off")
     return 0.0, upper
 

@@ -1,5 +1,6 @@
 """From a capture and a checkpoint to a folder: bundle, films, pictures, the prediction as JSON."""
 
+import dataclasses
 import re
 import tempfile
 import time
@@ -16,15 +17,18 @@ from artgen.export import write_bundle
 from artgen.textures.library import TextureLibrary
 from artgen.validate import Report, validate_bundle
 from artgen.worker import BlenderWorker
+from model.art import Art
 from model.art_file import load_art
 from model.config import Config
 from model.infer import predict
 from model.prediction import Prediction
 from model.reconstruct import films
+from model.reconstruct.agreement import Silhouettes, agreeing, agreement, silhouettes
 from model.reconstruct.assemble import Assembled, Wishes, assemble
 from model.reconstruct.capture import Capture, read_capture
 from model.reconstruct.choice import Choice, chosen_views
 from model.reconstruct.draw import Painter
+from model.reconstruct.guess import object_guess
 from model.reconstruct.hull import VisualHull, check_cameras
 from model.reconstruct.masks import found_segmenter
 from model.reconstruct.photo import Photo, PhotoColors
@@ -34,6 +38,8 @@ from model.reconstruct.sight import Sphere, in_object, network_images, sphere_of
 from model.reconstruct.skin import PaintOver
 from model.reconstruct.surfaces import field_guess
 
+JUDGED_PX = 64
+"""Width and height of the silhouettes that predictions are judged by."""
 BUNDLE = "bundle"
 TURNTABLE = "turntable.gif"
 ARTICULATION = "articulation.gif"
@@ -189,14 +195,11 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     watch.lap("checkpoint")
     capture, sphere = seen_object(order)
     choice = chosen_views(capture, sphere, config.data)
-    images = network_images(
-        capture.only(choice.views),
-        sphere,
-        size=config.data.input_px,
-        background=config.data.background,
+    seen = silhouettes(
+        network_images(capture, sphere, size=JUDGED_PX, background="white"), sphere.radius_m
     )
     watch.lap("images")
-    prediction = predict(art, config, images, parts=order.parts)
+    views, prediction = best_prediction(art, config, order, capture, sphere, choice, seen)
     watch.lap("network")
     field = None if prediction.planes_BP6CHW is None else prediction.field()
     guess = field_guess(
@@ -206,6 +209,8 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
         resolution=order.resolution,
         radius=sphere.radius_m,
     )
+    if field is not None:
+        guess = agreeing(guess, seen)
     watch.lap("surfaces")
     provenance = {"source": "reconstruction", "checkpoint": file_hash(order.checkpoint)}
 
@@ -219,11 +224,37 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     return Made(
         capture=capture,
         sphere=sphere,
-        choice=choice,
+        choice=dataclasses.replace(choice, views=views),
         config=config,
         prediction=prediction,
         assembled=assembled,
     )
+
+
+def best_prediction(
+    art: Art,
+    config: Config,
+    order: Order,
+    capture: Capture,
+    sphere: Sphere,
+    choice: Choice,
+    seen: Silhouettes,
+) -> tuple[tuple[int, ...], Prediction]:
+    """The views among those of a choice, and what the network makes of them, whose boxes, moved as
+    predicted, agree best with all silhouettes."""
+    found = []
+    for views in (choice.views, *choice.others):
+        images = network_images(
+            capture.only(views),
+            sphere,
+            size=config.data.input_px,
+            background=config.data.background,
+        )
+        said = predict(art, config, images, parts=order.parts)
+        boxes = object_guess(said.articulation, 0, {}, radius=sphere.radius_m)
+        found.append((agreement(boxes, seen), views, said))
+    _, views, prediction = max(found, key=lambda own: own[0])
+    return views, prediction
 
 
 def seen_object(order: Order) -> tuple[Capture, Sphere]:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from artgen.geometry.solid import Solid
-from model.reconstruct.guess import PartGuess
+from model.reconstruct.guess import PartGuess, Told
 from model.reconstruct.shapes import rounded_box
 
 MOST_SHARED = 0.5
@@ -25,14 +25,14 @@ def sensible(
     guesses: Mapping[int, PartGuess],
     budgets: Mapping[int, int],
     carriers: Mapping[int, int],
-) -> tuple[dict[int, Solid], list[str]]:
+) -> tuple[dict[int, Solid], list[Told]]:
     """The solids, senseless ones replaced, and what was replaced why.
 
     Args:
         budgets: slot to the triangles that were asked for.
         carriers: slot to the slot that carries it; what carries may hold what it carries.
     """
-    found, told = dict(solids), []
+    found, told = dict(solids), list[Told]()
     for slot, solid in solids.items():
         count, share = solid.manifold.num_tri(), shared(slot, solids, carriers)
         why = ""
@@ -42,7 +42,7 @@ def sensible(
             why = f"{share:.0%} of it lies within other parts"
         if why:
             found[slot] = rounded_box(guesses[slot])
-            told.append(f"slot {slot}: {why}; a rounded box of the predicted size stands for it")
+            told.append((slot, f"{why}; a rounded box of the predicted size stands for it"))
     return found, told
 
 

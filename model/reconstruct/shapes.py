@@ -1,5 +1,6 @@
 """Predicted surfaces as closed solids: crumbs dropped, needless triangles merged, never empty."""
 
+import dataclasses
 from dataclasses import dataclass
 
 import manifold3d as m3
@@ -51,9 +52,8 @@ def shape_of(guess: PartGuess, *, tolerance: float, triangles: int) -> Shape:
     """The part as a solid whose surface lies within `tolerance` m of the predicted one, or within
     as much more as brings it down to some `triangles`."""
     changes: list[str] = []
-    if not guess.found:
-        changes.append("the field holds no surface; a rounded box of the predicted size stands")
-        return Shape(solid=rounded_box(guess), changes=tuple(changes))
+    if guess.boxed:
+        return Shape(solid=rounded_box(guess), changes=())
     manifold = _closed(guess, guess.faces, changes)
     if manifold is None:
         changes.append("its predicted box stands for it")
@@ -130,6 +130,15 @@ def rounded_box(guess: PartGuess) -> Solid:
     edge = ROUND * float(half.min())
     corners = OCTANTS[:, None, :] * (half - edge + edge * ROUNDING[None])
     return hull(middle + corners.reshape(-1, 3))
+
+
+def boxed(part: PartGuess) -> PartGuess:
+    """The part as a rounded box of the predicted size."""
+    mesh = rounded_box(part).trimesh()
+    rgb = np.tile(part.rgb.mean(axis=0), (len(mesh.vertices), 1))
+    if part.shade is not None:
+        rgb = part.shade(mesh.vertices)
+    return dataclasses.replace(part, vertices=mesh.vertices, faces=mesh.faces, rgb=rgb, boxed=True)
 
 
 def mended(solid: Solid, tolerance: float) -> Solid:

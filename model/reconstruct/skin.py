@@ -48,7 +48,7 @@ def part_color(part: PartGuess, reach: float) -> ColorAt:
     shade = part.shade
     if shade is None:
         return near
-    if not part.found:
+    if part.boxed:
         return shade
     tree = cKDTree(part.vertices)
 

@@ -9,6 +9,7 @@ from model.batch import Articulation
 from model.extract import colors_at, part_meshes
 from model.field import Field
 from model.reconstruct.guess import ColorAt, ObjectGuess, Surface, object_guess
+from model.reconstruct.shapes import boxed
 
 
 def field_guess(
@@ -29,15 +30,14 @@ def field_guess(
         if not mesh.from_box
     }
     guess = object_guess(articulation, number, surfaces, radius=radius)
-    parts = tuple(
-        dataclasses.replace(
-            part,
-            shade=_shade(field, articulation, number, part.slot, radius),
-            found=part.slot in surfaces,
-        )
-        for part in guess.parts
-    )
-    return dataclasses.replace(guess, parts=parts)
+    parts = []
+    for part in guess.parts:
+        shade = _shade(field, articulation, number, part.slot, radius)
+        shaded = dataclasses.replace(part, shade=shade)
+        parts.append(shaded if part.slot in surfaces else boxed(shaded))
+    text = "its field holds no surface; a rounded box of the predicted size stands for it"
+    told = tuple((part.slot, text) for part in parts if part.boxed)
+    return dataclasses.replace(guess, parts=tuple(parts), told=told)
 
 
 def _shade(
