@@ -14,6 +14,7 @@ from artgen.core.jsonio import fill_folder_atomically, write_json
 from artgen.export import write_bundle
 from artgen.ingest.build import Built, build
 from artgen.ingest.foreign import ForeignObject
+from artgen.ingest.grips import with_grips
 from artgen.ingest.options import Options
 from artgen.ingest.partnet.folder import read_partnet
 from artgen.ingest.passages import with_passages
@@ -107,7 +108,7 @@ def refused(task: IngestTask, message: str) -> Outcome:
 
 def _written(task: IngestTask, built: Built, tools: Toolbox) -> Outcome:
     """The bundle on disk and its verdict."""
-    obj, folder = with_passages(built.obj), tools.folder
+    obj, folder = with_grips(with_passages(built.obj)), tools.folder
     for spec, images in built.images:
         tools.textures.keep(spec, images)
     staged = folder.work / "staged" / f"{task.asset_id}_{os.getpid()}"
@@ -126,7 +127,10 @@ def _written(task: IngestTask, built: Built, tools: Toolbox) -> Outcome:
     )
     home, other = reversed(homes) if status == "refused" else homes
     settled(staged, home=home, other=other)
-    keys = ("source", "licence", "scale", "joints_read", "mended", "dropped", "doubts", "art")
+    keys = (
+        "source", "licence", "scale", "joints_read", "grips_read", "mended", "dropped", "doubts",
+        "art",
+    )  # fmt: skip
     return Outcome(
         asset_id=task.asset_id,
         source=str(task.path),

@@ -13,7 +13,7 @@ from artgen.run_folder import SCHEMA, locked, opened, settled
 HOLDER = """
 import sys, time
 from pathlib import Path
-from artgen.run_folder import opened, settled
+from artgen.run_folder import opened
 with opened(Path(sys.argv[1]), seed=0):
     print("held", flush=True)
     sys.stdin.read()
