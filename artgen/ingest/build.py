@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +19,7 @@ from artgen.ingest.placing import Place, carried, placed, placed_joint, swept_po
 from artgen.ingest.reading import ReadMeshes, read_meshes
 from artgen.ingest.reduce import bounded_slides, capped, without_still_joints
 from artgen.ingest.rest import Rest, found_rests, outline
-from artgen.ingest.roles import dynamics, role_label
+from artgen.ingest.roles import dynamics, held_roles, role_label
 from artgen.ingest.surfaces import surfaces_of
 from artgen.textures.images import TextureSet
 
@@ -55,7 +55,7 @@ def build(foreign: ForeignObject, options: Options, *, asset_id: str, category: 
     stated = {part.name: part.mass for part in foreign.parts if part.mass is not None}
     poses = swept_poses([part.name for part in foreign.parts], foreign.joints, rests, place)
     parts = finished_parts(bodies, names, labels, surfaces, options, stated, poses)
-    joints = _joints(foreign, rests, place, names, parts)
+    joints = _joints(foreign, rests, place, names, parts, held=held_roles(category))
     account = Account(
         foreign=foreign,
         dropped=meshes.dropped,
@@ -112,6 +112,8 @@ def _joints(
     place: Place,
     names: Mapping[str, str],
     parts: tuple[Part, ...],
+    *,
+    held: Collection[str],
 ) -> tuple[Joint, ...]:
     """Joints in the object frame, parents first; friction and effort by role and load."""
     by_name = {part.name: part for part in parts}
@@ -121,7 +123,8 @@ def _joints(
         at = placed_joint(joint, rests[joint.name], place)
         child = by_name[names[joint.child]]
         carries = [by_name[names[name]] for name in moved[joint.child]]
-        forces = dynamics(child.label, joint.type, load=_load(joint, at.axis, at.origin, carries))
+        load = _load(joint, at.axis, at.origin, carries)
+        forces = dynamics(child.label, joint.type, load=load, held=child.label in held)
         joints.append(
             canonical_pivot(
                 Joint(

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from artgen.articulation.roles import ROLES
 from artgen.articulation.types import JointType
+from artgen.core.errors import RuleError
+from artgen.validate.semantics import packaged_rule
 
 WORDS: Mapping[str, str] = {
     "rotation_door": "door",
@@ -96,24 +98,41 @@ LIGHTEST = 0.05
 """Of the span of its role: how much friction a joint has at least."""
 HOLDS = 0.5
 """Of the joint's own load (weight times arm): friction that such joints have."""
+HELD = 1.25
+"""Likewise, where a part stays where it is put."""
+FOREIGN_HELD: Mapping[str, tuple[str, ...]] = {
+    "display": ("lid", "arm", "head", "part"),
+    "lamp": ("arm", "head", "column"),
+    "phone": ("lid",),
+}
+"""Roles of parts that stay where they are put, in categories that artgen has no rule for."""
 DAMPED = 0.1
 """Damping over friction, s."""
 STRONG = 4.0
 """Effort over the sum of friction and load."""
 
 
-def dynamics(label: str, joint: JointType, *, load: float) -> Dynamics:
+def held_roles(category: str) -> tuple[str, ...]:
+    """Roles of parts that stay wherever they are put: a laptop's lid, the arms of a lamp."""
+    try:
+        return packaged_rule(category).held
+    except RuleError:
+        return FOREIGN_HELD.get(category, ())
+
+
+def dynamics(label: str, joint: JointType, *, load: float, held: bool = False) -> Dynamics:
     """Friction inside the role's span, the more the heavier what moves; an effort that overcomes
     it.
 
     Args:
         load: weight of what moves, N; times its arm about the axis where it turns, N m.
+        held: whether friction has to carry the load.
     """
     role = ROLES[label]
     low, high = role.sliding if joint == "prismatic" else role.turning
     high = min(high, 100.0 * max(low, 0.01), 50.0)
     least = max(low, LIGHTEST * min(high, 1.0))
-    friction = min(max(HOLDS * load, least), max(high, least))
+    friction = min(max((HELD if held else HOLDS) * load, least), max(high, least))
     if joint == "continuous":
         friction = least
     return Dynamics(
