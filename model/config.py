@@ -36,6 +36,8 @@ class ImageTokens:
             the background away.
         rays: Pluecker coordinates (direction, origin x direction) of each patch's middle, or of
             every pixel. Not stated.
+        ray_octaves: how many octaves of sines and cosines, from a wave of 4 on, stand beside each
+            Pluecker coordinate, so that attention can tell neighboring rays apart; 0 is the paper.
         states: rows of the table of learned state vectors, the most states an object can have.
         state_dim: length of those vectors.
         encoder: who supplies semantics: `none`, `conv`, `efflite0`, `dinov2:FOLDER` (the paper's)
@@ -54,8 +56,11 @@ class ImageTokens:
     encoder: str = "none"
     frozen: bool = True
     blind: bool = dataclasses.field(default=False, metadata=LATER)
+    ray_octaves: int = dataclasses.field(default=0, metadata=LATER)
 
     def __post_init__(self) -> None:
+        if self.ray_octaves < 0:
+            raise ModelError(f"images: ray_octaves is {self.ray_octaves}; expected 0 or more")
         if self.image_px % self.patch_px:
             raise ModelError(
                 f"images of {self.image_px} px do not divide into patches of {self.patch_px} px; "

@@ -78,6 +78,18 @@ def plucker(origin_X3: Tensor, direction_X3: Tensor) -> Tensor:
     return torch.cat([direction_X3, torch.linalg.cross(origin_X3, direction_X3)], dim=-1)
 
 
+def waves(values_XD: Tensor, octaves: int) -> Tensor:
+    """(X, D (1 + 2 octaves)): the values, then their sines and cosines of waves 4, 2, 1, ... long.
+
+    Fourier features (Mildenhall et al. 2020, equation 4); values in [-1, 1] use the longest wave
+    over half its length, so no two of them share all numbers.
+    """
+    octave = torch.arange(octaves, dtype=values_XD.dtype, device=values_XD.device)
+    turns = torch.pi / 2.0 * 2.0**octave
+    angles_XE = (values_XD[..., None] * turns).flatten(-2)
+    return torch.cat([values_XD, angles_XE.sin(), angles_XE.cos()], dim=-1)
+
+
 def box_span(
     origin_BPR3: Tensor, direction_BPR3: Tensor, center_BP3: Tensor, half_BP3: Tensor
 ) -> tuple[Tensor, Tensor]:

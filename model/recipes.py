@@ -21,8 +21,8 @@ OURS = FieldConfig(hidden=64, bias="smallest_side", octant_blend=0.03)
 
 MODELS: Mapping[Size, ModelConfig] = {
     "nano": ModelConfig(
-        images=ImageTokens(image_px=48, patch_px=8, alpha=True, encoder="conv"),
-        trunk=Trunk(width=96, blocks=8, heads=3, direction="part_from_image"),
+        images=ImageTokens(image_px=48, patch_px=8, alpha=True, ray_octaves=8, encoder="conv"),
+        trunk=Trunk(width=96, blocks=8, heads=6, direction="part_from_image"),
         planes=PlaneConfig(grid=8, scale=2, channels=8, tokens="one"),
         field=dataclasses.replace(OURS, hidden=32),
         motion="state_tokens",
@@ -31,7 +31,7 @@ MODELS: Mapping[Size, ModelConfig] = {
         count=True,
     ),
     "s": ModelConfig(
-        images=ImageTokens(image_px=128, patch_px=16, alpha=True, encoder="conv"),
+        images=ImageTokens(image_px=128, patch_px=16, alpha=True, ray_octaves=8, encoder="conv"),
         trunk=Trunk(
             width=256,
             blocks=16,

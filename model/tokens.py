@@ -16,7 +16,7 @@ from model.batch import Images
 from model.config import ImageTokens, ModelConfig
 from model.encoders import Encoder, make_encoder
 from model.precision import full, full_precision
-from model.rays import pixel_rays, plucker
+from model.rays import pixel_rays, plucker, waves
 
 PLANES = 6
 """Planes of a hexa-plane: xy+ xy- yz+ yz- xz+ xz-."""
@@ -40,7 +40,8 @@ class ImageTokenizer(nn.Module):
         self.state = nn.Embedding(config.states, config.state_dim)
         pixels = config.patch_px**2
         self.widths = [pixels * (4 if config.alpha else 3)]
-        self.widths += [6 * (pixels if config.rays == "pixel" else 1), config.state_dim]
+        numbers = 6 * (1 + 2 * config.ray_octaves)
+        self.widths += [numbers * (pixels if config.rays == "pixel" else 1), config.state_dim]
         self.widths += [] if self.encoder is None else [self.encoder.dim]
         self.project = nn.Linear(sum(self.widths), width)
 
@@ -90,8 +91,9 @@ class ImageTokenizer(nn.Module):
                 images.camera_from_world_BTV44.flatten(1, 2),
                 torch.stack([x, y], dim=-1).reshape(-1, 2),
             )
-            rays_BF6SS = torch.unflatten(plucker(origin, direction), 2, (side, side)).movedim(-1, 2)
-        return patches(rays_BF6SS, config.patch_px // step)
+            coded_BFND = waves(plucker(origin, direction), config.ray_octaves)
+            coded_BFDSS = torch.unflatten(coded_BFND, 2, (side, side)).movedim(-1, 2)
+        return patches(coded_BFDSS, config.patch_px // step)
 
     def _states(self, images: Images) -> Tensor:
         objects, states, views = images.rgb_BTV3HW.shape[:3]

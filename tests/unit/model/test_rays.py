@@ -15,6 +15,7 @@ from model.rays import (
     pixel_middles,
     pixel_rays,
     plucker,
+    waves,
 )
 
 EPS64 = torch.finfo(torch.float64).eps
@@ -89,6 +90,22 @@ def test_plucker_coordinates_belong_to_the_line() -> None:
     direction = torch.tensor([[0.6, 0.0, 0.8]], dtype=torch.float64)
     same = plucker(origin + 2.5 * direction, direction)
     torch.testing.assert_close(plucker(origin, direction), same, rtol=0, atol=8 * EPS64)
+
+
+def test_each_octave_tells_twice_as_small_differences_apart() -> None:
+    """A step of e turns the fastest wave by e pi 2^(octaves - 2); the values lead, unchanged."""
+    values = torch.tensor([[-0.9, 0.4]], dtype=torch.float64)
+    step = 1e-4
+    assert torch.equal(waves(values, 0), values)
+    for octaves in (1, 3, 5):
+        before, after = waves(values, octaves), waves(values + step, octaves)
+        assert before.shape == (1, 2 * (1 + 2 * octaves))
+        assert torch.equal(before[:, :2], values)
+        sine, cosine = (after - before)[0, 2:].unflatten(0, (2, 2, octaves))[:, :, -1]
+        # The chord of an angle a is 2 sin(a / 2) long; 1e-11 is what 1e5 roundings of 1 leave.
+        angle = step * np.pi * 2.0 ** (octaves - 2)
+        chord = torch.full((2,), 2.0 * np.sin(angle / 2.0), dtype=torch.float64)
+        torch.testing.assert_close(torch.hypot(sine, cosine), chord, rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("seed", range(3))

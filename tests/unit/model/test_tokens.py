@@ -102,6 +102,7 @@ def test_the_mask_is_seen_only_where_so_asked() -> None:
         ({}, 3 * 16 + 6 + 5),
         ({"alpha": True}, 4 * 16 + 6 + 5),
         ({"rays": "pixel"}, 3 * 16 + 6 * 16 + 5),
+        ({"ray_octaves": 3}, 3 * 16 + 6 * 7 + 5),
         ({"encoder": "conv"}, 3 * 16 + 6 + 5 + 64),
     ],
 )
