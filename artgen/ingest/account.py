@@ -24,11 +24,13 @@ class Account:
     """All that is known of one ingested object.
 
     Attributes:
+        sprung: joints that were given a spring which the source does not state.
         names: part name of the source to ours, in canonical order.
         bodies: by part name of the source.
     """
 
     foreign: ForeignObject
+    sprung: tuple[str, ...]
     dropped: tuple[str, ...]
     place: Place
     rests: Mapping[str, Rest]
@@ -133,6 +135,8 @@ def mended(account: Account) -> list[str]:
         f"{open_count} open surfaces weigh as sheets of {account.options.thickness:g} m":
             open_count,
         f"{washed.unsure} open surfaces may face either way": washed.unsure,
+        f"{', '.join(account.sprung)}: a spring that carries the weight is assumed":
+            len(account.sprung),
         f"{account.unreadable_images} images could not be read; plain colors stand for them":
             account.unreadable_images,
     }  # fmt: skip

@@ -2,20 +2,22 @@
 
 import dataclasses
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from artgen.articulation.canonical import canonical_pivot, parents_first
-from artgen.articulation.types import ArticulatedObject, Joint, Part
+from artgen.articulation.types import ArticulatedObject, Joint, Part, Spring
 from artgen.core.conventions import GRAVITY
+from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
 from artgen.ingest.account import Account, provenance
+from artgen.ingest.balance import ANGLES, balancing, weight_torque
 from artgen.ingest.foreign import ForeignJoint, ForeignObject
 from artgen.ingest.options import Options
 from artgen.ingest.parts import cleaned, finished_parts, ordered_names
-from artgen.ingest.placing import Place, carried, placed, placed_joint, swept_poses
+from artgen.ingest.placing import Place, PlacedJoint, carried, placed, placed_joint, swept_poses
 from artgen.ingest.reading import ReadMeshes, read_meshes
 from artgen.ingest.reduce import bounded_slides, capped, without_still_joints
 from artgen.ingest.rest import Rest, found_rests, outline
@@ -56,8 +58,10 @@ def build(foreign: ForeignObject, options: Options, *, asset_id: str, category: 
     poses = swept_poses([part.name for part in foreign.parts], foreign.joints, rests, place)
     parts = finished_parts(bodies, names, labels, surfaces, options, stated, poses)
     joints = _joints(foreign, rests, place, names, parts, held=held_roles(category))
+    sprung = tuple(joint.name for joint in joints if joint.spring is not None)
     account = Account(
         foreign=foreign,
+        sprung=sprung,
         dropped=meshes.dropped,
         place=place,
         rests=rests,
@@ -124,7 +128,13 @@ def _joints(
         child = by_name[names[joint.child]]
         carries = [by_name[names[name]] for name in moved[joint.child]]
         load = _load(joint, at.axis, at.origin, carries)
-        forces = dynamics(child.label, joint.type, load=load, held=child.label in held)
+        stays = child.label in held
+        forces = dynamics(child.label, joint.type, load=load, held=stays)
+        spring = None
+        if stays and load > forces.friction and (found := _balance(at, carries)) is not None:
+            spring, left = found
+            friction = dynamics(child.label, joint.type, load=left, held=True).friction
+            forces = dataclasses.replace(forces, friction=friction)
         joints.append(
             canonical_pivot(
                 Joint(
@@ -139,6 +149,7 @@ def _joints(
                     damping=forces.damping,
                     effort=forces.effort,
                     velocity=VELOCITY,
+                    spring=spring,
                 )
             )
         )
@@ -149,14 +160,28 @@ def _load(
     joint: ForeignJoint,
     axis: tuple[float, float, float],
     origin: tuple[float, float, float],
-    carries: list[Part],
+    carries: Sequence[Part],
 ) -> float:
     """Most that weight can ask of a joint: N along a slide, N m about a hinge."""
-    mass = sum(part.mass.mass for part in carries)
+    mass, center = _weight(carries)
     along = np.array(axis)
     if joint.type == "prismatic":
         return float(mass * GRAVITY * abs(along[2]))
-    center = sum(part.mass.mass * part.mass.center for part in carries) / mass
-    arm = np.cross(along, np.asarray(center) - np.array(origin))
+    arm = np.cross(along, center - np.array(origin))
     level = float(np.hypot(along[0], along[1]))
     return float(mass * GRAVITY * np.linalg.norm(arm) * level)
+
+
+def _balance(at: PlacedJoint, carries: Sequence[Part]) -> tuple[Spring, float] | None:
+    """The spring that carries what hangs on a hinge, and the torque that is left, N m."""
+    if at.limit is None:
+        return None
+    mass, center = _weight(carries)
+    angles = np.linspace(at.limit.lower, at.limit.upper, ANGLES)
+    return balancing(weight_torque(at.axis, center - np.array(at.origin), mass, angles), angles)
+
+
+def _weight(parts: Sequence[Part]) -> tuple[float, Floats]:
+    """Mass (kg) and center (3,) at rest."""
+    mass = sum(part.mass.mass for part in parts)
+    return mass, np.asarray(sum(part.mass.mass * part.mass.center for part in parts) / mass)
