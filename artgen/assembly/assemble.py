@@ -200,7 +200,7 @@ class _Attempt:
         group = self.group_of.get(member.name)
         place = None if group is None else self.plan.donors[group]
         if group is None or (member.kind == "whole" and place is None):
-            change: Change = self._for_body
+            change: Change = self._for_body if group is None else self._for_front
             pieces = [self.table.take(p, self.source.surfaces, change) for p in member.pieces]
             return _with_grips(joined(pieces), member)
         donor_source, donor = self.source, member

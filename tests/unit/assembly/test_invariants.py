@@ -163,6 +163,18 @@ def test_9_a_triangle_twice(cases):
     assert 9 in numbers(invariants.sound(with_piece(case, name, doubled)))
 
 
+def test_9_collision_that_reaches_out_of_its_part(cases):
+    """A front of a hollow door whose collision reaches back through a lining that is not there."""
+    case = cases[0]
+    name = next(iter(case.new.seams))
+
+    def deep(piece):
+        longer = [replace(c, vertices=np.add(c.vertices, (0.0, 0.3, 0.0))) for c in piece.collision]
+        return replace(piece, collision=tuple(longer))
+
+    assert 9 in numbers(invariants.sound(with_piece(case, name, deep)))
+
+
 def test_10_texture_left_stretched(cases):
     """Left as they were on the donor, fronts that were scaled unequally show it."""
     caught = 0

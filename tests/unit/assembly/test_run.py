@@ -11,10 +11,13 @@ import pytest
 
 from artgen.assembly.assemble import Assembled, GivenUp, assembled, finished
 from artgen.assembly.choice import Market
-from artgen.assembly.library import Library
+from artgen.assembly.library import Library, write_library
+from artgen.assembly.looks import stuff_of
 from artgen.assembly.run import (
     AssembleTask,
+    Bench,
     check_kept,
+    make_object,
     new_object,
     set_twins_aside,
 )
@@ -23,6 +26,7 @@ from artgen.core.jsonio import write_json
 from artgen.core.stream import Stream
 from artgen.export.manifest import versions
 from artgen.run_folder import RunFolder
+from tests.exported import write_without_blender
 
 WHAT = "storage_furniture"
 
@@ -43,6 +47,47 @@ def test_12_equal_seeds_give_equal_objects_in_any_process_and_order(market):
         assert here.sources == there[index].sources
         for one, same in zip(content(here)[0], content(there[index])[0], strict=True):
             assert np.array_equal(one, same)
+
+
+def written(new, folder):
+    """Every file of a bundle that needs no Blender, by its path: bytes."""
+    write_without_blender(finished(new, asset_id="x", provenance={"seed": 5}), folder)
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_12_equal_seeds_give_equal_bytes(market, tmp_path):
+    """OBJ, URDF, MJCF and USD of an object made twice, by a process that made another before; the
+    control is another seed. Of GLB and thumbnails see the next one."""
+    other = Market(Library(market.library.folder), ("storage_furniture", "cabinet"))
+    new_object(other, WHAT, 5, 3)
+    here, there, seed = (
+        written(new_object(m, WHAT, s, 0), tmp_path / name)
+        for m, s, name in ((market, 5, "a"), (other, 5, "b"), (market, 6, "c"))
+    )
+    assert {"asset.urdf", "asset.xml", "asset.usdc"} <= here.keys()
+    assert here == there
+    assert any(here.get(name) != content for name, content in seed.items())
+
+
+@pytest.mark.blender
+def test_12_whole_bundles_are_equal_whatever_the_process_made_before(library, tmp_path):
+    """Every file, GLB, textures, thumbnail and the validation's report included; run b makes
+    another object first, as a second worker would."""
+    bundles = {}
+    for name, indices in (("a", (0,)), ("b", (1, 0))):
+        folder = RunFolder(tmp_path / name)
+        bench = Bench(folder, library.folder, WHAT)
+        tasks = [replace(task(k, seed=5), library=library.folder) for k in indices]
+        with bench.tools.blender:
+            made = [make_object(one, bench) for one in tasks]
+        assert [outcome.status for outcome in made] == ["made"] * len(indices), made
+        home = tasks[-1].place(folder.assets)
+        bundles[name] = {
+            str(p.relative_to(home)): p.read_bytes() for p in home.rglob("*") if p.is_file()
+        }
+    assert "asset.glb" in bundles["a"]
+    assert "manifest.json" in bundles["a"]
+    assert bundles["a"] == bundles["b"]
 
 
 def test_12_other_seeds_and_indices_give_other_objects(market):
@@ -80,6 +125,29 @@ def test_one_wood_one_metal(cases):
             handle = case.new.layer(name, "handle")
             shown |= {case.new.surfaces[k].name for k in handle.slots} if handle else set()
         assert len({n for n in shown if by_name[n].metallic > 0.5 or n == "handle"}) <= 1
+
+
+def test_a_flap_that_no_donor_replaces_has_the_wood_of_the_other_fronts(tmp_path, made_sources):
+    """A whole flap keeps its shape, its leather and its lock, and is not left in its old wood."""
+    family = {"family": "cabinet_6_000000"}
+    secretary = next(s for s in made_sources if s.id == "storage_furniture_6_000001")
+    fewer = [m for m in secretary.members if not m.name.startswith("small")]
+    assert len(fewer) < 8
+    others = [replace(s, **family) for s in made_sources if s.id != secretary.id]
+    write_library(
+        tmp_path, [replace(secretary, members=tuple(fewer), **family), *others], recipe={}
+    )
+    market = Market(Library(tmp_path), ("storage_furniture", "cabinet"))
+    found = [assembled(market, secretary.id, Stream(k)) for k in range(6)]
+    new = next(new for new in found if isinstance(new, Assembled) and "flap" not in new.seams)
+    fronts = [new.layer(name, "body") for name in new.seams if "drawer" in name]
+
+    def panels(piece):
+        return {k for k in piece.slots if stuff_of(new.surfaces[k]) in ("wood", "paint")}
+
+    flap = new.piece("flap")
+    assert panels(flap) == {k for piece in fronts for k in panels(piece)}
+    assert set(flap.slots) > panels(flap)
 
 
 def test_what_cannot_be_made_says_why(market):
