@@ -62,6 +62,8 @@ class Ablations:
     """Settings to change in all runs, as in `artgen train`."""
     dry: bool = False
     """Train nothing: write the page from what is there, and list what is missing."""
+    price: bool = False
+    """Train nothing: measure a few updates of every arm, and say what the study would cost here."""
     out: Path = Path("out/studies/ablations")
     """Receives the objects, the runs, ablations.csv, ablations_claims.csv, ablations.png and
     ablations.md."""
@@ -82,8 +84,11 @@ def study(argv: Sequence[str]) -> int:
             f"--seeds {command.seeds}, --objects {command.objects} and --held-out "
             f"{command.held_out} must be at least 1"
         )
-    from model.training_study.ablations_run import run  # Torch takes seconds to import.
+    from model.training_study.ablations_run import price, run  # Torch takes seconds to import.
 
+    if command.price:
+        print(price(command))  # noqa: T201
+        return 0
     print(f"page: {run(command)}")  # noqa: T201
     return 0
 

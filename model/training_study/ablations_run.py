@@ -17,6 +17,7 @@ from model.training_study.figures import plot_differences
 from model.training_study.judge import Judge
 from model.training_study.objects import HELD_OUT, training_path, write_objects
 from model.training_study.pairs import Difference, difference
+from model.training_study.prices import price_table, priced
 from model.training_study.rows import Known, claim_rows, score_rows
 from model.training_study.runs import known, run_cells, share_of
 from model.training_study.tell import tell
@@ -49,6 +50,18 @@ def run(command: Ablations) -> Path:
                 tell=tell,
             )
     return write_results(command, course, everything, judge)
+
+
+def price(command: Ablations) -> str:
+    """A table of what every arm costs here."""
+    cells = cells_of(command, course_of(command))
+    found = []
+    with flushed_denormals():
+        prices = priced(cells, command.library, objects=command.objects, device=command.device)
+        for own in prices:
+            tell(f"{own.arm}: {own.last:.2f} s an update")
+            found.append(own)
+    return price_table(found, command.seeds)
 
 
 def course_of(command: Ablations) -> Course:

@@ -8,6 +8,9 @@ from artgen.core.errors import UsageError
 from artgen.studies.table import read_table
 from model.training_study import runs
 from model.training_study.ablations import study
+from model.training_study.claims import ARMS
+from model.training_study.course import Course
+from model.training_study.prices import updates_price
 from model.training_study.rows import ClaimRow, ScoreRow
 from tests.unit.model.training_study.small_study import FEW_RAYS, SMALL, small_library
 
@@ -97,3 +100,27 @@ def test_what_cannot_be_is_told(
 ) -> None:
     with pytest.raises(UsageError, match=message):
         ablations(library, tmp_path, *words)
+
+
+def test_prices_are_measured_and_summed(
+    library: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Static pre-training renders from its first update, so its run costs more than the usual
+    one's share; nothing is written."""
+    words = ("--claims", "pretraining", "--set", *SMALL, *FEW_RAYS)
+    ablations(library, tmp_path, "--price", *words, "--steps", "4")
+    said = capsys.readouterr().out
+    assert "| `shapes` |" in said
+    assert "| `pretrained` |" in said
+    assert "2 seeds: 0.0 h" in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_run_costs_its_casting_and_its_updates() -> None:
+    """Two fifths of the updates of `nano` do not render; pre-training renders from the first."""
+    course = Course(size="nano", steps=100, batch=8, scenes=None)
+    stages = [
+        course.cell(ARMS[name], Path("l.npz"), seed=0).stages for name in ("shapes", "pretrained")
+    ]
+    assert updates_price(stages[0][-1], 1.0, 3.0) == pytest.approx(40 * 1.0 + 60 * 3.0)
+    assert updates_price(stages[1][0], 1.0, 3.0) == pytest.approx(25 * 3.0)
