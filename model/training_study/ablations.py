@@ -30,7 +30,7 @@ class Ablations:
 
     artgen study ablations --library lib.npz --claims order images --seeds 2 --steps 150
 
-    artgen study ablations --library lib.npz --size s --device cuda --no-scenes --steps 20000 \\
+    artgen study ablations --library lib.npz --size s --device cuda --scenes None --steps 20000 \\
         --batch 64 --share 1/3
     """
 
@@ -43,16 +43,16 @@ class Ablations:
     """From how many seeds every arm is run."""
     size: Size = "nano"
     """Of the network."""
-    steps: int = 1_200
+    steps: int = 1_000
     """Updates of a run."""
     batch: int = 16
     """Objects of an update."""
     objects: int = 800
     """Objects to learn from."""
-    scenes: int | None = 4
+    scenes: int | None = 3
     """Scenes of every object, kept in memory, as casting costs a CPU as much as learning; None
     draws new ones each time, which a GPU casts by itself."""
-    held_out: int = 100
+    held_out: int = 60
     """Objects to be judged on."""
     device: Literal["auto", "cpu", "cuda"] = "auto"
     """Where to train."""

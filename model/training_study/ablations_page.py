@@ -11,13 +11,14 @@ from model.training_study.rows import NOT_RUN, ClaimRow, told
 HEAD = """# What makes training work: ablations
 
 Written by `artgen study ablations`; the CSV files beside this page hold every number. Each row is
-the mean difference between two ways to train, an arm less the other, on the same {objects}
-held-out objects and from the same seeds, with a 95 % bootstrap interval over seeds and objects
-(rows and columns drawn). The metrics were chosen beforehand; the first of each table decides.
-`reproduces` and `reversed` stand where the interval leaves zero out. The paper's figures are its
-own, measured on other objects at another scale: only directions can be compared.
+the mean difference between two ways to train, an arm less the other, on the same held-out objects
+and from the same seeds, with a 95 % bootstrap interval that draws both seeds and objects. The
+metrics were chosen beforehand; the first of each table decides. `reproduces` and `reversed` stand
+where the interval leaves zero out. The paper's figures are its own, measured on other objects at
+another scale: only directions can be compared.
 
-Runs: size `{size}`, {steps} updates of {batch} objects, seeds {seeds}; {done} of {cells} are done.
+Runs: size `{size}`, {steps} updates of {batch} objects, seeds {seeds}; {held_out} objects to be
+judged on. {done} of {cells} are done.
 """
 
 
@@ -26,6 +27,7 @@ def page(
     *,
     course: Course,
     seeds: Sequence[int],
+    held_out: int,
     done: int,
     cells: int,
     picture: str | None,
@@ -35,17 +37,16 @@ def page(
     Args:
         picture: file name of the plot, where there is one.
     """
-    objects = max((row.objects for row in rows), default=0)
     parts = [
         HEAD.format(
-            objects=objects or "",
             size=course.size,
             steps=course.steps,
             batch=course.batch,
             seeds=", ".join(str(seed) for seed in seeds),
+            held_out=held_out,
             done=done,
             cells=cells,
-        ).replace("same \nheld-out", "same\nheld-out"),
+        ),
         _overview(rows),
     ]
     if picture:

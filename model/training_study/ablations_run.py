@@ -97,8 +97,15 @@ def write_results(command: Ablations, course: Course, cells: Sequence[Cell], jud
     if drawn := differences(found):
         picture = f"{NAME}.png"
         plot_differences(command.out / picture, drawn, DRAWN)
-    seeds = range(command.seeds)
-    text = page(rows, course=course, seeds=seeds, done=done, cells=len(cells), picture=picture)
+    text = page(
+        rows,
+        course=course,
+        seeds=range(command.seeds),
+        held_out=command.held_out,
+        done=done,
+        cells=len(cells),
+        picture=picture,
+    )
     path = command.out / f"{NAME}.md"
     write_bytes(path, text.encode())
     return path

@@ -49,7 +49,9 @@ def priced(cells: Sequence[Cell], library: Path, *, objects: int, device: str) -
         library: whose objects are measured on.
         objects: that a run would learn from.
     """
-    by_arm = {cell.arm: cell for cell in reversed(cells)}
+    by_arm: dict[str, Cell] = {}
+    for cell in cells:
+        by_arm.setdefault(cell.arm, cell)
     whole = read_library(library)
     with joined({}, device=device) as team:
         for arm, cell in by_arm.items():

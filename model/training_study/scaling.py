@@ -33,7 +33,7 @@ class Scaling:
 
     library: Path
     """Objects (artgen train-data); of the split train for learning, of test for judging."""
-    counts: tuple[int, ...] = (100, 300, 1_000, 3_000)
+    counts: tuple[int, ...] = (100, 300, 900, 2_700)
     """Objects to learn from."""
     seeds: int = 2
     """From how many seeds."""

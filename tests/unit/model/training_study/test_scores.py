@@ -11,7 +11,7 @@ from model.evaluation.held_out import HeldOut
 from model.evaluation.network_run import NetworkRun
 from model.evaluation.predictors import Guess
 from model.training_study import scores
-from model.training_study.claims import AXIS, CENTER, DGIOU, TYPE
+from model.training_study.claims import AXIS, DGIOU, TYPE
 from model.training_study.judge import Judge
 from model.training_study.scores import Score, kept_score, scored
 from tests.unit.model.training_study.small_study import small_library
@@ -28,7 +28,6 @@ def test_a_score_is_kept_until_something_changes(asked: NetworkRun, tmp_path: Pa
     score = scored(asked, tmp_path, mask_pixels=0)
     assert score.objects == 3
     assert set(score.metrics[DGIOU]) == {"laptop_000001", "laptop_000009", "cabinet_000003"}
-    assert CENTER not in score.metrics  # The mean layout states no states.
     assert kept_score(asked, tmp_path, mask_pixels=0) == score
     assert kept_score(asked, tmp_path, mask_pixels=24) is None
     assert kept_score(dataclasses.replace(asked, count=2), tmp_path, mask_pixels=0) is None
