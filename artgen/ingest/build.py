@@ -4,11 +4,12 @@ import dataclasses
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from artgen.articulation.canonical import canonical_pivot, parents_first
-from artgen.articulation.types import ArticulatedObject, Joint, Part, Spring
+from artgen.articulation.types import ArticulatedObject, Joint, JointType, Part, Spring
 from artgen.core.conventions import GRAVITY
 from artgen.core.mesh import Floats
 from artgen.core.surface import SurfaceSpec
@@ -128,12 +129,15 @@ def _joints(
         child = by_name[names[joint.child]]
         carries = [by_name[names[name]] for name in moved[joint.child]]
         load = _load(joint, at.axis, at.origin, carries)
+        rated = partial(
+            dynamics, child.label, joint.type, inertia=_inertia(joint.type, at, carries)
+        )
         stays = child.label in held
-        forces = dynamics(child.label, joint.type, load=load, held=stays)
+        forces = rated(load=load, held=stays)
         spring = None
         if stays and load > forces.friction and (found := _balance(at, carries)) is not None:
             spring, left = found
-            friction = dynamics(child.label, joint.type, load=left, held=True).friction
+            friction = rated(load=left, held=True).friction
             forces = dataclasses.replace(forces, friction=friction)
         joints.append(
             canonical_pivot(
@@ -179,6 +183,18 @@ def _balance(at: PlacedJoint, carries: Sequence[Part]) -> tuple[Spring, float] |
     mass, center = _weight(carries)
     angles = np.linspace(at.limit.lower, at.limit.upper, ANGLES)
     return balancing(weight_torque(at.axis, center - np.array(at.origin), mass, angles), angles)
+
+
+def _inertia(joint: JointType, at: PlacedJoint, carries: Sequence[Part]) -> float:
+    """kg that slide, or kg m2 that turn about the axis."""
+    if joint == "prismatic":
+        return sum(part.mass.mass for part in carries)
+    axis, origin = np.array(at.axis), np.array(at.origin)
+    arms = [np.cross(axis, part.mass.center - origin) for part in carries]
+    return float(sum(
+        axis @ part.mass.inertia @ axis + part.mass.mass * arm @ arm
+        for part, arm in zip(carries, arms, strict=True)
+    ))  # fmt: skip
 
 
 def _weight(parts: Sequence[Part]) -> tuple[float, Floats]:

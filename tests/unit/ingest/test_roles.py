@@ -34,7 +34,7 @@ def test_every_word_stands_for_a_role_that_is_there() -> None:
 @pytest.mark.parametrize("joint", ["revolute", "prismatic"])
 @pytest.mark.parametrize("load", [0.0, 0.01, 5.0, 500.0])
 def test_effort_overcomes_friction_and_load(label: str, joint: str, load: float) -> None:
-    found = dynamics(label, joint, load=load)
+    found = dynamics(label, joint, load=load, inertia=1.0)
     assert found.friction > 0.0
     assert found.effort >= 2.0 * (found.friction + load)
 
@@ -43,16 +43,22 @@ def test_effort_overcomes_friction_and_load(label: str, joint: str, load: float)
 def test_friction_lies_in_the_span_of_the_role(label: str) -> None:
     role = ROLES[label]
     for joint, (low, high) in (("revolute", role.turning), ("prismatic", role.sliding)):
-        assert low <= dynamics(label, joint, load=3.0).friction <= high
+        assert low <= dynamics(label, joint, load=3.0, inertia=1.0).friction <= high
 
 
 def test_what_stays_where_it_is_put_has_friction_for_its_load() -> None:
     """A laptop's lid of 0.34 N m used to get half of that, and fell shut."""
     assert "lid" in held_roles("laptop")
     assert held_roles("keyboard") == ()
-    assert dynamics("lid", "revolute", load=0.34, held=True).friction >= 0.34
-    assert dynamics("lid", "revolute", load=0.34).friction < 0.34
+    assert dynamics("lid", "revolute", load=0.34, inertia=1.0, held=True).friction >= 0.34
+    assert dynamics("lid", "revolute", load=0.34, inertia=1.0).friction < 0.34
 
 
 def test_roles_that_hold_elsewhere_are_there() -> None:
     assert {role for roles in FOREIGN_HELD.values() for role in roles} <= set(ROLES)
+
+
+def test_light_parts_are_damped_lightly() -> None:
+    """A refrigerator's dial of 1.2e-7 kg m2 was damped so that it went 0.33 rad past its stop."""
+    assert dynamics("dial", "revolute", load=0.0, inertia=1.2e-7).damping <= 1e-4
+    assert dynamics("door", "revolute", load=0.0, inertia=1.0).damping == pytest.approx(0.05)
