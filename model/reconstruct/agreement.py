@@ -4,6 +4,7 @@ by it, and where a part's field agrees worse than its predicted box, the box sta
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,7 @@ from artgen.core.mesh import Floats
 from artgen.core.rotation import axis_angle_matrix
 from artgen.core.transform import apply, inverted
 from model.batch import Images
-from model.reconstruct.guess import JointGuess, ObjectGuess
+from model.reconstruct.guess import JointGuess, ObjectGuess, PartGuess
 from model.reconstruct.shapes import boxed
 
 BETTER = 0.01
@@ -106,19 +107,29 @@ def _motion(joint: JointGuess, q: float) -> Floats:
 
 
 def agreeing(guess: ObjectGuess, seen: Silhouettes) -> ObjectGuess:
-    """The guess with boxes for parts where boxes agree better; the largest box is tried first."""
-    best = agreement(guess, seen)
-    told = guess.told
-    order = sorted(guess.parts, key=lambda part: -float(np.prod(part.box[1] - part.box[0])))
-    for part in order:
-        parts = tuple(boxed(own) if own.slot == part.slot else own for own in guess.parts)
-        tried = dataclasses.replace(guess, parts=parts)
-        value = agreement(tried, seen)
+    """The guess with boxes for parts where boxes agree better.
+
+    Fields as a whole and boxes as a whole are compared first; then each part, the largest first,
+    may be the other of the two.
+    """
+    fields = {part.slot: part for part in guess.parts}
+    boxes = {part.slot: boxed(part) for part in guess.parts}
+    with_fields, with_boxes = agreement(guess, seen), agreement(_of(guess, boxes), seen)
+    best, chosen, others = with_fields, fields, boxes
+    if with_boxes > with_fields + BETTER:
+        best, chosen, others = with_boxes, boxes, fields
+    for slot in sorted(fields, key=lambda slot: -float(np.ptp(fields[slot].box, axis=0).prod())):
+        tried = {**chosen, slot: others[slot]}
+        value = agreement(_of(guess, tried), seen)
         if value > best + BETTER:
-            text = (
-                "a rounded box of the predicted size stands for its field, as silhouettes then "
-                f"agree to {value:.2f} instead of {best:.2f}"
-            )
-            told = (*told, (part.slot, text))
-            guess, best = tried, value
-    return dataclasses.replace(guess, told=told)
+            best, chosen = value, tried
+    text = (
+        "a rounded box of the predicted size stands for its field; silhouettes agree to "
+        f"{best:.2f} so, to {with_fields:.2f} by fields alone"
+    )
+    told = [(slot, text) for slot in chosen if chosen[slot].boxed and not fields[slot].boxed]
+    return dataclasses.replace(_of(guess, chosen), told=(*guess.told, *told))
+
+
+def _of(guess: ObjectGuess, parts: Mapping[int, PartGuess]) -> ObjectGuess:
+    return dataclasses.replace(guess, parts=tuple(parts[part.slot] for part in guess.parts))

@@ -39,6 +39,7 @@ from model.reconstruct.guess import ColorAt, ObjectGuess, PartGuess, Told
 from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
 from model.reconstruct.physics import DENSITY, LEAST, forces, weights
 from model.reconstruct.proof import proven
+from model.reconstruct.rescue import unblocked
 from model.reconstruct.scene import Scene
 from model.reconstruct.seating import seated
 from model.reconstruct.sense import sensible
@@ -136,7 +137,7 @@ def assemble(
         changes=tuple(f"{names.get(slot, f'slot {slot}')}: {text}" for slot, text in told),
     )
     cutter = Cutter(wishes.clearance)
-    scene = seated(apart_at_rest(scene, cutter))
+    scene = unblocked(seated(apart_at_rest(scene, cutter)))
     scene = proven(seated(made_sound(clear_ways(scene, cutter))))
     draft = _draft(scene, wishes)
     placed = canonicalize(draft)

@@ -1,15 +1,18 @@
 """`artgen reconstruct`: the option list, and the help."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Literal
 
+import numpy as np
 import tyro
 from rich.console import Console
 
+from artgen.articulation.types import ArticulatedObject, Joint
 from artgen.core.errors import ModelError, UsageError
+from artgen.export.layout import MJCF
 from artgen.progress import progress
 from artgen.system_libraries import check_libraries
 from model.reconstruct import run
@@ -63,6 +66,9 @@ class Reconstruct:
     """m of air between parts at rest."""
     films: bool = True
     """Also make the GIFs and the reprojection."""
+    refine: bool = True
+    """Fit sides of boxes and states of joints to the silhouettes of all images; else they are as
+    the network says."""
 
 
 def reconstruct(argv: Sequence[str]) -> int:
@@ -109,6 +115,7 @@ def ordered(command: Reconstruct) -> run.Order:
         ),
         photos=command.colors == "photos",
         films=command.films,
+        refine=command.refine,
     )
 
 
@@ -146,20 +153,49 @@ def shipped_checkpoint() -> Path:
 
 
 def announce(order: run.Order, outcome: run.Outcome) -> None:
-    """What was found, where everything lies, and what took how long."""
+    """What was found, what was made of it, where everything lies, and what took how long."""
     console = Console(highlight=False, soft_wrap=True)
     obj = outcome.assembled.object
     verdict = "valid" if outcome.report.ok else "INVALID"
     mean = sum(outcome.ious) / max(len(outcome.ious), 1)
     console.print(
-        f"{obj.asset_id}: {len(obj.parts)} parts, {len(obj.joints)} joints, {verdict}; silhouettes "
-        f"agree to {mean:.2f} (IoU, {len(outcome.ious)} images)"
+        f"{obj.asset_id}: {len(obj.parts)} parts, {verdict}; silhouettes agree to {mean:.2f} "
+        f"(mean IoU of {len(outcome.ious)} images)"
     )
+    for line in (*part_lines(obj), *outcome.told):
+        console.print(f"  {line}", markup=False)
+    if outcome.assembled.changes:
+        console.print("made of the prediction:")
     for change in outcome.assembled.changes:
-        console.print(f"    {change}", markup=False)
+        console.print(f"  {change}", markup=False)
     for finding in outcome.report.findings:
-        console.print(f"    {finding}", markup=False)
+        console.print(f"  {finding}", markup=False)
+    told = ", ".join(f"{stage} {seconds:.1f}" for stage, seconds in outcome.seconds.items())
+    console.print(f"seconds: {sum(outcome.seconds.values()):.1f} ({told})")
+    console.print("written:")
     for path in sorted(order.out.iterdir()):
         console.print(f"  {path}")
-    told = ", ".join(f"{stage} {seconds:.1f}" for stage, seconds in outcome.seconds.items())
-    console.print(f"seconds: {told}; {sum(outcome.seconds.values()):.1f} in all")
+    console.print(f"try it: python -m mujoco.viewer --mjcf={order.out / run.BUNDLE / MJCF}")
+
+
+def part_lines(obj: ArticulatedObject) -> Iterator[str]:
+    """A line a part: how large it is, and how it moves."""
+    joints = {joint.child: joint for joint in obj.joints}
+    for part in obj.parts:
+        size = " x ".join(f"{side:.3g}" for side in np.ptp(part.mesh.bounds, axis=0))
+        line = f"{part.name}: {size} m"
+        if part.name in joints:
+            line += f", {way_of(joints[part.name])} on {joints[part.name].parent}"
+        yield line
+
+
+def way_of(joint: Joint) -> str:
+    """`turns by 90 degrees`."""
+    if joint.limit is None:
+        return "turns all around"
+    lower, upper = joint.limit.lower, joint.limit.upper
+    unit, scale, verb = (
+        ("m", 1.0, "slides") if joint.type == "prismatic" else ("degrees", 180.0 / np.pi, "turns")
+    )
+    far = f"{scale * upper:.3g} {unit}"
+    return f"{verb} by {far}" if lower == 0.0 else f"{verb} by {far} both ways"

@@ -33,12 +33,13 @@ from model.reconstruct.hull import VisualHull, check_cameras
 from model.reconstruct.masks import found_segmenter
 from model.reconstruct.photo import Photo, PhotoColors
 from model.reconstruct.record import record
+from model.reconstruct.refine import refined
 from model.reconstruct.rig import read_rig
 from model.reconstruct.sight import Sphere, in_object, network_images, sphere_of
 from model.reconstruct.skin import PaintOver
 from model.reconstruct.surfaces import field_guess
 
-JUDGED_PX = 64
+JUDGED_PX = 48
 """Width and height of the silhouettes that predictions are judged by."""
 BUNDLE = "bundle"
 TURNTABLE = "turntable.gif"
@@ -61,6 +62,7 @@ class Order:
         resolution: of the grid that each part is extracted on.
         photos: whether the colors come from the images where they show them, else from the field.
         films: whether GIFs and the reprojection are made.
+        refine: whether boxes and states are fitted to the silhouettes.
     """
 
     images: Path
@@ -74,6 +76,7 @@ class Order:
     wishes: Wishes
     photos: bool = True
     films: bool = True
+    refine: bool = True
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -211,6 +214,8 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     )
     if field is not None:
         guess = agreeing(guess, seen)
+    if order.refine:
+        guess = refined(guess, seen)
     watch.lap("surfaces")
     provenance = {"source": "reconstruction", "checkpoint": file_hash(order.checkpoint)}
 

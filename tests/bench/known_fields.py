@@ -27,6 +27,8 @@ SAMPLES = 56
 FEWEST = 12
 SPACING = 0.006
 """Radii between points on true surfaces that distances are taken to."""
+FAR = 0.12
+"""Radii; distances are not told apart beyond."""
 LUMPS = 1.5
 """Deviation of the filter that makes noise smooth, samples."""
 LEAST_SIZE = 0.02
@@ -95,7 +97,9 @@ def signed_distances(mesh: TriMesh, center: Floats, half: Floats, stream: Stream
     ]
     inside = points_inside(mesh, axes)
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    away, _ = cKDTree(surface_points(mesh, stream)).query(grid.reshape(-1, 3))
+    tree = cKDTree(surface_points(mesh, stream))
+    away, _ = tree.query(grid.reshape(-1, 3), distance_upper_bound=FAR)
+    away = np.minimum(away, FAR)
     return np.where(inside, -1.0, 1.0) * away.reshape(inside.shape)
 
 

@@ -1,0 +1,96 @@
+"""A joint that is blocked where it leaves rest is given the nearest place, or the direction, that
+lets it go.
+
+A hinge that is predicted a little inside of its part turns the part's rim into what carries it;
+about an edge of the part it does not. A slide may be predicted with the wrong sign.
+"""
+
+import dataclasses
+from collections.abc import Iterator
+
+import numpy as np
+
+from artgen.articulation.types import Joint
+from artgen.geometry.clearance import Mover, overlaps, shape_of_solids
+from artgen.validate.sweep import Sweep, sweep_poses
+from model.reconstruct.scene import Scene
+
+POSES = 11
+"""Places along a joint's way at which it is looked whether it is free."""
+ENOUGH = 0.5
+"""Share of its way that a joint has free to be left alone."""
+GAIN = 0.15
+"""Share of its way that another place must free more."""
+NOISE = 0.04
+"""Share of the smaller of two parts that may meet and be cut away later."""
+
+
+def unblocked(scene: Scene) -> Scene:
+    """The scene with blocked joints moved to edges of their parts, or turned around."""
+    for name in [joint.name for joint in scene.joints]:
+        share = free_share(scene, name)
+        if share < ENOUGH:
+            scene = _better(scene, name, share)
+    return scene
+
+
+def _better(scene: Scene, name: str, share: float) -> Scene:
+    """The scene with the first of the other places of a joint that frees most of its way."""
+    best: tuple[float, Scene] = (share + GAIN, scene)
+    for joint, text in places(scene, scene.joint(name)):
+        tried = scene.with_joint(joint)
+        found = free_share(tried, name)
+        if found > best[0] + 1e-9:
+            best = found, tried.told(f"{name} {text}, as it could not leave rest where it was")
+        if best[0] >= 1.0:
+            break
+    return best[1]
+
+
+def places(scene: Scene, joint: Joint) -> Iterator[tuple[Joint, str]]:
+    """Other statements of a joint, the nearest first, and how each differs."""
+    axis = np.array(joint.axis)
+    back = tuple((-axis + 0.0).tolist())
+    turned = dataclasses.replace(joint, axis=back)
+    along = int(np.argmax(np.abs(axis)))
+    if joint.type != "prismatic" and abs(axis[along]) > 1.0 - 1e-9:
+        bounds, origin = scene.solids[joint.child].bounds, np.array(joint.origin)
+        others = [k for k in range(3) if k != along]
+        edges = []
+        for corner in np.ndindex(2, 2):
+            edge = origin.copy()
+            edge[others] = [bounds[end, k] for end, k in zip(corner, others, strict=True)]
+            edges.append(edge)
+        for edge in sorted(edges, key=lambda own: float(np.linalg.norm(own - origin))):
+            way = float(np.linalg.norm(edge - origin))
+            x, y, z = edge.tolist()
+            moved = dataclasses.replace(joint, origin=(x, y, z))
+            yield moved, f"was moved by {way:.3g} m to an edge of {joint.child}"
+    yield turned, "was turned around"
+
+
+def free_share(scene: Scene, name: str) -> float:
+    """Share of a joint's way, from rest to its nearer end, on which nothing meets deeply."""
+    joint = scene.joint(name)
+    upper = np.pi if joint.limit is None else joint.limit.upper
+    path = np.linspace(0.0, upper, POSES)[1:]
+    sweep = Sweep(joint=name, states=tuple({name: q} for q in path.tolist()))
+    poses = sweep_poses(scene.base, scene.joints, sweep)
+    moved = scene.moved_by(name)
+    names = list(scene.solids)
+    movers = [
+        Mover(name=own, shape=shape_of_solids([scene.solids[own]]), poses=poses[own])
+        for own in names
+    ]
+    pairs = [
+        (min(a, b), max(a, b))
+        for a, one in enumerate(names)
+        for b, other in enumerate(names)
+        if one in moved and other not in moved
+    ]
+    first = len(path)
+    for overlap in overlaps(movers, pairs):
+        room = NOISE * min(scene.solids[overlap.first].volume, scene.solids[overlap.second].volume)
+        if overlap.volume > room:
+            first = min(first, overlap.pose)
+    return first / len(path)
