@@ -9,12 +9,14 @@ from collections.abc import Mapping
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
+from numpy.typing import NDArray
 
 from artgen.core.mesh import Floats
 from artgen.core.transform import apply, inverted
 
 DEEP = 6e-4
-"""m; an edge that goes less far to either side of a triangle only touches it."""
+"""m; an edge that goes less far to either side of a triangle, or hits it nearer to its rim, only
+touches it."""
 
 
 class Surfaces:
@@ -50,12 +52,35 @@ class Surfaces:
         found = self._scenes[other].run(
             starts.astype(np.float32), ways.astype(np.float32), output=True
         )
-        hit = np.asarray(found["primID"]) >= 0
-        normal = np.asarray(found["Ng"], np.float64)[hit]
-        normal /= np.linalg.norm(normal, axis=1, keepdims=True).clip(min=1e-300)
+        hit = np.flatnonzero(np.asarray(found["primID"]) >= 0)
+        struck = target[np.asarray(found["primID"])[hit]]
+        share = np.stack([np.asarray(found[key], np.float64)[hit] for key in "uv"], axis=1)
         before = np.asarray(found["tfar"], np.float64)[hit]
-        steep = np.abs(np.einsum("ij,ij->i", normal, ways[hit]))
-        return bool((steep * np.minimum(before, length[hit] - before) > DEEP).any())
+        return bool(_deep(struck, share, ways[hit], before, length[hit] - before).any())
+
+
+def _deep(
+    struck: Floats, share: Floats, ways: Floats, before: Floats, after: Floats
+) -> NDArray[np.bool_]:
+    """Whether edges go deep enough to both sides of the triangles that they hit, and hit them away
+    from their rims, along which touching faces lie.
+
+    Args:
+        struck: (N, 3, 3) triangles.
+        share: (N, 2) weights of their second and third corner at the hit.
+        ways: (N, 3) unit directions.
+        before: (N,) m from the edge's start to the hit.
+        after: (N,) m from the hit to the edge's end.
+    """
+    sides = np.roll(struck, -2, axis=1) - np.roll(struck, -1, axis=1)  # Each against its corner.
+    normal = np.cross(sides[:, 0], sides[:, 1])
+    area = np.linalg.norm(normal, axis=1).clip(min=1e-300)
+    steep = np.abs(np.einsum("ij,ij->i", normal, ways)) / area
+    weights = np.concatenate([1.0 - share.sum(axis=1, keepdims=True), share], axis=1)
+    inside = weights * area[:, None] / np.linalg.norm(sides, axis=2).clip(min=1e-300)
+    return np.asarray(
+        (steep * np.minimum(before, after) > DEEP) & (inside.min(axis=1) > DEEP), bool
+    )
 
 
 def _scene(corners: Floats) -> EmbreeScene:

@@ -8,25 +8,12 @@ from artgen.core.mesh import Floats, TriMesh
 from artgen.geometry.convex import convexity_gap
 from artgen.geometry.distance import inside_bodies
 from artgen.geometry.solid import box
-from artgen.ingest.meshes.clean import Body, bodies_of, welded_soup
 from artgen.ingest.meshes.cuts import clipped
 from artgen.ingest.meshes.pieces import convex_pieces
-from artgen.ingest.meshes.soup import Look, Soup
+from tests.unit.ingest.meshes.made import bodies_from
 
 GAP = 1e-5
 """m; the validator's bound of convexity."""
-
-
-def bodies_from(corners: Floats) -> list[Body]:
-    count = len(corners)
-    soup = Soup(
-        vertices=corners.reshape(-1, 3),
-        faces=np.arange(3 * count).reshape(-1, 3),
-        uv=np.full((count, 3, 2), np.nan),
-        look=np.zeros(count, np.int64),
-        looks=(Look(),),
-    )
-    return bodies_of(welded_soup(soup)[0], "leaf")[0]
 
 
 def tray(wall: float = 0.01) -> Floats:
