@@ -19,6 +19,8 @@ MANY = 5
 """Parts from which the last round is left out."""
 FARTHEST = 0.16
 """Radii that a side of a box may leave its place by."""
+MOST_SUNK = 0.05
+"""Share of the smaller of two boxes by which moving a side may let them sink into each other."""
 WORTH = 0.002
 """Mean IoU that a step must gain."""
 
@@ -63,9 +65,23 @@ def changed(guess: ObjectGuess, first: ObjectGuess, change: int, step: float) ->
     off = np.abs(part.box - first.parts[place].box).max()
     if off > FARTHEST * guess.radius or np.ptp(part.box, axis=0).min() < LEAST_SIDE:
         return None
+    if sunk(part, place, guess) > sunk(first.parts[place], place, first) + MOST_SUNK:
+        return None
     parts = list(guess.parts)
     parts[place] = part
     return dataclasses.replace(guess, parts=tuple(parts))
+
+
+def sunk(part: PartGuess, place: int, guess: ObjectGuess) -> float:
+    """The largest share of the smaller of two boxes, a part's and another's, that the two share."""
+    most, own = 0.0, float(np.ptp(part.box, axis=0).prod())
+    for k, other in enumerate(guess.parts):
+        lower = np.maximum(part.box[0], other.box[0])
+        upper = np.minimum(part.box[1], other.box[1])
+        least = min(own, float(np.ptp(other.box, axis=0).prod()))
+        if k != place and least > 0.0:
+            most = max(most, float((upper - lower).clip(min=0.0).prod()) / least)
+    return most
 
 
 def _moved_state(joint: JointGuess, state: int, step: float, radius: float) -> JointGuess:

@@ -21,6 +21,8 @@ ENOUGH = 0.5
 """Share of its way that a joint has free to be left alone."""
 GAIN = 0.15
 """Share of its way that another place must free more."""
+FARTHEST = 0.25
+"""Share of a part's diagonal by which its hinge may be off; an edge beyond is another hinge."""
 NOISE = 0.04
 """Share of the smaller of two parts that may meet and be cut away later."""
 
@@ -61,8 +63,11 @@ def places(scene: Scene, joint: Joint) -> Iterator[tuple[Joint, str]]:
             edge = origin.copy()
             edge[others] = [bounds[end, k] for end, k in zip(corner, others, strict=True)]
             edges.append(edge)
+        reach = FARTHEST * float(np.linalg.norm(bounds[1] - bounds[0]))
         for edge in sorted(edges, key=lambda own: float(np.linalg.norm(own - origin))):
             way = float(np.linalg.norm(edge - origin))
+            if way > reach:
+                break
             x, y, z = edge.tolist()
             moved = dataclasses.replace(joint, origin=(x, y, z))
             yield moved, f"was moved by {way:.3g} m to an edge of {joint.child}"

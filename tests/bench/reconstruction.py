@@ -248,8 +248,8 @@ def main() -> None:
             scratch = Path(folder) / str(k)
             scratch.mkdir()
             rows.append(judged(case, worker, scratch))
+            keep(asked.out, rows)
             advance(f"{case.source} {case.asset}")
-    keep(asked.out, rows)
     print(table(rows))  # noqa: T201
 
 
