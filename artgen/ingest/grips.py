@@ -26,6 +26,8 @@ ITSELF: Mapping[str, GripKind] = {
     "handle": "handle", "lever": "lever", "knob": "knob", "dial": "knob", "button": "button",
 }  # fmt: skip
 """Roles of parts that are gripped whole."""
+FRONTED = ("door", "drawer", "lid", "flap", "cover", "sash")
+"""Roles of parts before whose front a handle stands; of a rack, wires stand out everywhere."""
 TOUCHING = 0.005
 """m; bodies of one handle are no farther apart than this."""
 STANDS_OUT = 0.008
@@ -73,8 +75,8 @@ def with_grips(obj: ArticulatedObject) -> ArticulatedObject:
 def found_grips(
     part: Part, joint: Joint, fragments: Sequence[Mapping[str, Any]]
 ) -> Iterator[Found]:
-    """What is gripped of a part: bodies that the source names so; else the part itself if it is a
-    knob or the like; else what stands out before its front.
+    """What is gripped of a part: all of it if it is a knob or the like; else bodies that the source
+    names so; else what stands out before its front.
 
     Args:
         fragments: runs of bodies with the source's name of each, as manifests state them.
@@ -90,7 +92,7 @@ def found_grips(
         for cluster in _clusters(part, np.array(own, np.int64)):
             named = True
             yield Found(bodies=cluster, kind=kind, why=f"the source calls it a {word}")
-    if not named and ROLES[part.label].closes:
+    if not named and part.label in FRONTED:
         yield from _standing_out(part, joint)
 
 
