@@ -65,7 +65,7 @@ def _facts(
         ("accepted", f"{len(accepted)} ({100.0 * len(accepted) / len(rows):.1f} %)", ">= 80 %"),
         ("distinct by tree, shapes and looks", f"{distinct}", "all"),
         ("distinct (template, donors)", f"{tuples}", ""),
-        ("fronts without a handle: gripped at an edge or pushed / all filled",
+        ("fronts without a handle (sliding, gripped at an edge, pushed) / all filled",
          f"{sum(r.bare for r in accepted)} / {sum(r.filled for r in accepted)}", ""),
         ("objects whose fronts are pushed to open",
          f"{100.0 * np.mean([r.pushed for r in accepted]):.1f} %", "10 %"),

@@ -37,7 +37,7 @@ class Row:
         parts: base included.
         filled: slots filled by donors.
         bodies: sources of bodies and handles with the number of the part, joined by blanks.
-        bare: filled slots without a handle, whose fronts are gripped at an edge or pushed.
+        bare: filled slots without a handle: sliding doors, gripped at an edge, pushed.
         pushed: the fronts of the object are pushed to open.
         shorter: joints that open less far than the template's.
         tried: how often something else was tried.
