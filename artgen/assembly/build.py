@@ -19,6 +19,8 @@ from artgen.pool import run_in_processes
 from artgen.progress import Show
 from artgen.run_folder import RunFolder
 
+EDITION = 2
+"""Of how sources are taken apart; a new one lets an embedded library on disk be built anew."""
 TIMEOUT_S = 300.0
 """A source takes under a second; a process that hangs for this long is killed."""
 
@@ -89,7 +91,8 @@ def build_library(
 
 def embedded_library(folder: Path, *, workers: int, show: Show, sharp: bool = False) -> Path:
     """The embedded library in a folder, built there unless it is."""
-    name = content_hash([plain(one) for one in embedded(EMBEDDED)])[:12] + ("-sharp" * sharp)
+    made = [plain(one) for one in embedded(EMBEDDED)]
+    name = content_hash([EDITION, *made])[:12] + ("-sharp" * sharp)
     home = folder / f"library-{name}"
     if not (home / "library.json").exists():
         build_library(home, made=embedded(), bundles=(), workers=workers, show=show, sharp=sharp)
