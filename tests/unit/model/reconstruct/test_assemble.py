@@ -111,7 +111,7 @@ def test_a_part_that_does_not_move_becomes_a_piece_of_the_base() -> None:
     foot = part(3, slab((-0.3, -0.25, -0.45), (0.3, 0.25, -0.4)))
     found = assemble(dataclasses.replace(guess, parts=(*guess.parts, foot)), Wishes())
     assert [own.name for own in found.object.parts] == ["base", "part_1", "part_2"]
-    assert any("slot 3 does not move" in change for change in found.changes)
+    assert any("slot 3: it does not move" in change for change in found.changes)
 
 
 def test_a_part_without_a_surface_shows_its_box() -> None:
