@@ -139,6 +139,9 @@ def assemble(
     cutter = Cutter(wishes.clearance)
     scene = unblocked(seated(apart_at_rest(scene, cutter)))
     scene = proven(seated(made_sound(clear_ways(scene, cutter))))
+    order = _in_order(scene)
+    scene = scene.renamed(order)
+    names = {slot: order.get(name, name) for slot, name in names.items()}
     draft = _draft(scene, wishes)
     placed = canonicalize(draft)
     shift = part_bounds(placed.parts[0])[0] - part_bounds(draft.parts[0])[0]
@@ -192,6 +195,14 @@ def _names(solids: Mapping[int, Solid]) -> dict[int, str]:
     slots = list(solids)
     order = canonical_order([solids[slot].bounds for slot in slots])
     return {slots[k]: "base" if place == 0 else f"part_{place}" for place, k in enumerate(order)}
+
+
+def _in_order(scene: Scene) -> dict[str, str]:
+    """Part name to the name that its place in canonical order gives it, now that it is cut."""
+    places = canonical_order([solid.bounds for solid in scene.solids.values()])
+    names = list(scene.solids)
+    movers = sorted(names[1:], key=lambda name: int(name.rpartition("_")[2]))
+    return {names[k]: new for k, new in zip(places, [names[0], *movers], strict=True)}
 
 
 def _stated(joint: CleanJoint, names: Mapping[int, str]) -> Joint:

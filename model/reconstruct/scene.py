@@ -1,6 +1,7 @@
 """Parts and joints while they are being fitted to each other; every change makes a new value."""
 
 import dataclasses
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -110,6 +111,28 @@ class Scene:
             joined={**self.joined, gone.child: gone.parent},
         )
         return scene.told(f"{gone.child} became a piece of {gone.parent}: {why}")
+
+    def renamed(self, names: Mapping[str, str]) -> "Scene":
+        """The same with parts, their joints and the sentences about them under other names."""
+
+        def new(text: str) -> str:
+            return re.sub(r"part_\d+", lambda found: names.get(found[0], found[0]), text)
+
+        return Scene(
+            solids={new(name): solid for name, solid in self.solids.items()},
+            joints=tuple(
+                dataclasses.replace(
+                    own, name=new(own.name), parent=new(own.parent), child=new(own.child)
+                )
+                for own in self.joints
+            ),
+            rules=tuple(
+                dataclasses.replace(rule, joint=new(rule.joint), requires=new(rule.requires))
+                for rule in self.rules
+            ),
+            joined={new(part): new(other) for part, other in self.joined.items()},
+            changes=tuple(map(new, self.changes)),
+        )
 
     def ended(self, sweep: Sweep, met: Sequence[int], what: str) -> "Scene":
         """The same with the swept joint's way ended a step before the poses at which it meets
