@@ -14,8 +14,8 @@ Written by `artgen study ablations`; the CSV files beside this page hold every n
 the mean difference between two ways to train, an arm less the other, on the same held-out objects
 and from the same seeds, with a 95 % bootstrap interval that draws both seeds and objects. The
 metrics were chosen beforehand; the first of each table decides. `reproduces` and `reversed` stand
-where the interval leaves zero out. The paper's figures are its own, measured on other objects at
-another scale: only directions can be compared.
+where the interval leaves zero out and three seeds at least agree in sign. The paper's figures
+are its own, measured on other objects at another scale: only directions can be compared.
 
 Runs: size `{size}`, {steps} updates of {batch} objects, seeds {seeds}; {held_out} objects to be
 judged on. {done} of {cells} are done.
