@@ -11,7 +11,7 @@ from artgen.core.errors import ModelError
 from artgen.core.jsonio import canonical_json
 from model.config_json import LATER, decoded
 from model.data.config import DataConfig
-from model.schedule import TrainConfig
+from model.training.schedule import TrainConfig
 
 Size = Literal["nano", "s", "paper"]
 Direction = Literal["image_from_part", "part_from_image", "both"]

@@ -4,10 +4,10 @@ import torch
 from torch import Tensor
 
 from artgen.core.errors import ModelError
-from model.art import Art
 from model.batch import Images
 from model.config import Config
-from model.prediction import Prediction
+from model.network.art import Art
+from model.network.prediction import Prediction
 
 
 def predict(art: Art, config: Config, images: Images, *, parts: int | None) -> Prediction:

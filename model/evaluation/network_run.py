@@ -13,14 +13,12 @@ from artgen.core.jsonio import content_hash, file_hash, write_bytes
 from artgen.core.stream import Stream
 from artgen.dataset.split import Split
 from artgen.progress import progress
-from model.art_file import load_art
 from model.config import Config
 from model.data.config import DataConfig
 from model.data.items import Source
 from model.data.library import read_library
 from model.data.shards import ShardSource
 from model.data.soup_source import SoupSource
-from model.encoders.registry import make_encoder
 from model.evaluation.baselines import NearestNeighbor, mean_layouts
 from model.evaluation.held_out import CPU, HeldOut, held_out, held_out_config
 from model.evaluation.lpips import load_lpips
@@ -37,7 +35,9 @@ from model.evaluation.predictors import (
 from model.evaluation.records import keep_record, kept_record, picture_path
 from model.evaluation.reshape import rebased
 from model.evaluation.score import Protocol, Record, failed, score
-from model.object_fit import FitConfig
+from model.fitting.object_fit import FitConfig
+from model.network.encoders.registry import make_encoder
+from model.training.art_file import load_art
 
 LEAST_PX = 16
 """Images that nobody looks at are made as small as this."""

@@ -14,10 +14,8 @@ import torch
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.stream import Stream
-from model.art import Art
 from model.batch import Articulation, Batch
 from model.config import Config
-from model.encoders.protocol import Encoder
 from model.evaluation.baselines import MeanLayout, NearestNeighbor, pixel_feature
 from model.evaluation.gates import Gates
 from model.evaluation.held_out import HeldOut, blinded, flips
@@ -25,12 +23,14 @@ from model.evaluation.images import ImageScores, Perceptual, image_scores
 from model.evaluation.layout import Layout
 from model.evaluation.predictions import layout_of, with_observed_limits
 from model.evaluation.simulated import prediction_gates
-from model.extract import ColoredMesh, part_meshes
+from model.field.extract import ColoredMesh, part_meshes
+from model.field.kinematics import world_from_rest
+from model.field.pictures import pictures
+from model.fitting.object_fit import FitConfig, fit_object
 from model.infer import predict
-from model.kinematics import world_from_rest
-from model.object_fit import FitConfig, fit_object
-from model.pictures import pictures
-from model.prediction import Prediction
+from model.network.art import Art
+from model.network.encoders.protocol import Encoder
+from model.network.prediction import Prediction
 
 Images = dict[str, list[ImageScores]]
 

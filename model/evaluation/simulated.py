@@ -14,7 +14,7 @@ from artgen.validate.bounds import shipped_bounds
 from artgen.validate.subject import Source
 from artgen.validate.urdf_subject import UrdfSubject
 from model.evaluation.gates import Gates, subject_gates
-from model.prediction import Prediction
+from model.network.prediction import Prediction
 from model.reconstruct.assemble import Wishes, assemble
 from model.reconstruct.surfaces import field_guess
 

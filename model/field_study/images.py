@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from model.field import Field
+from model.field.plane_field import Field
+from model.field.sdf import Quadrature
+from model.field.volume import RayColors, render_along
 from model.field_study.scene import Scene
 from model.field_study.timing import timed
-from model.sdf import Quadrature
-from model.volume import RayColors, render_along
 
 PSNR_MOST = 120.0
 """dB; what equal images are given."""

@@ -10,16 +10,16 @@ from torch import Tensor
 
 from artgen.core.stream import Stream
 from artgen.geometry.solid import slab, union
-from model.analytic import BoxField
-from model.extract import ColoredMesh, part_meshes
-from model.field import PlaneField
+from model.field.analytic import BoxField
+from model.field.extract import ColoredMesh, part_meshes
+from model.field.plane_field import PlaneField
+from model.field.rays import Growth, half_sides
+from model.field.sdf import Quadrature
 from model.field_study.images import Setting, cost, part_psnr, psnr, reference, rendered
 from model.field_study.rows import MeshRow, PlanesRow, PrecisionRow, SamplesRow
 from model.field_study.scene import PARTS, Scene
 from model.field_study.taught import CHANNELS, Taught
 from model.field_study.timing import timed
-from model.rays import Growth, half_sides
-from model.sdf import Quadrature
 
 SAMPLES, COARSE = (4, 8, 12, 16, 24, 32, 48, 64), (0, 16, 32)
 QUADRATURES: tuple[Quadrature, ...] = ("point", "linear")

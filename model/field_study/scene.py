@@ -12,9 +12,9 @@ from torch import Tensor
 
 from artgen.core.camera import orbit_direction
 from artgen.core.transform import inverted, look_at
-from model.analytic import BoxField
 from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation, TensorBlock
-from model.rays import pixel_middles, pixel_rays
+from model.field.analytic import BoxField
+from model.field.rays import pixel_middles, pixel_rays
 
 Vector = tuple[float, float, float]
 Board = tuple[Vector, Vector, Vector]

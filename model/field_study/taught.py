@@ -4,9 +4,9 @@ import torch
 from torch import Tensor, nn
 
 from artgen.core.stream import Stream
-from model.analytic import BoxField
 from model.config import FieldConfig
-from model.field import FieldHead, PlaneField
+from model.field.analytic import BoxField
+from model.field.plane_field import FieldHead, PlaneField
 
 CONFIG = FieldConfig(hidden=64, layers=2, bias="smallest_side")
 CHANNELS = 16

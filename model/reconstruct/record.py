@@ -6,7 +6,7 @@ from typing import Any
 import torch
 
 from model.batch import PRISMATIC
-from model.prediction import TYPE_OF_LOGIT, Prediction
+from model.network.prediction import TYPE_OF_LOGIT, Prediction
 from model.reconstruct.assemble import Assembled
 from model.reconstruct.films import Reprojection
 from model.reconstruct.sight import Sphere

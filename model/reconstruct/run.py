@@ -17,11 +17,10 @@ from artgen.export import write_bundle
 from artgen.textures.library import TextureLibrary
 from artgen.validate import Report, validate_bundle
 from artgen.worker import BlenderWorker
-from model.art import Art
-from model.art_file import load_art
 from model.config import Config
 from model.infer import predict
-from model.prediction import Prediction
+from model.network.art import Art
+from model.network.prediction import Prediction
 from model.reconstruct import films
 from model.reconstruct.agreement import Silhouettes, agreeing, agreement, silhouettes
 from model.reconstruct.assemble import Assembled, Wishes, assemble
@@ -38,6 +37,7 @@ from model.reconstruct.rig import read_rig
 from model.reconstruct.sight import Sphere, in_object, network_images, sphere_of
 from model.reconstruct.skin import PaintOver
 from model.reconstruct.surfaces import field_guess
+from model.training.art_file import load_art
 
 JUDGED_PX = 48
 """Width and height of the silhouettes that predictions are judged by."""

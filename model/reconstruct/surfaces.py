@@ -6,8 +6,8 @@ import torch
 
 from artgen.core.mesh import Floats
 from model.batch import Articulation
-from model.extract import colors_at, part_meshes
-from model.field import Field
+from model.field.extract import colors_at, part_meshes
+from model.field.plane_field import Field
 from model.reconstruct.guess import ColorAt, ObjectGuess, Surface, object_guess
 from model.reconstruct.shapes import boxed
 

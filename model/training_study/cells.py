@@ -8,13 +8,13 @@ from pathlib import Path
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import plain
 from artgen.progress import Show
-from model.art import Art
-from model.art_file import ModelCard, load_art, save_art
-from model.checkpoint import checkpoint_path, read_checkpoint
 from model.config import Config
-from model.material import Material
-from model.run_state import differences
-from model.session import RESULT, run_session
+from model.network.art import Art
+from model.training.art_file import ModelCard, load_art, save_art
+from model.training.checkpoint import checkpoint_path, read_checkpoint
+from model.training.material import Material
+from model.training.run_state import differences
+from model.training.session import RESULT, run_session
 
 CHECKPOINTS = "checkpoints"
 

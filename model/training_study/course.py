@@ -6,9 +6,9 @@ from pathlib import Path
 
 from artgen.core.errors import UsageError
 from model.config import Config, Size
-from model.material import Material
-from model.recipes import RECIPES
-from model.settings import changed
+from model.training.material import Material
+from model.training.recipes import RECIPES
+from model.training.settings import changed
 from model.training_study.cells import Cell
 from model.training_study.claims import BOXES, Arm
 

@@ -7,18 +7,18 @@ from pathlib import Path
 import torch
 
 from artgen.studies.table import markdown_table
-from model.art import Art
 from model.batch import Batch
 from model.config import Config
 from model.data.library import read_library
 from model.data.loader import batches
 from model.data.soup_source import SoupSource
-from model.distributed import Team, joined
 from model.field_study.timing import timed
-from model.objective import Objective
-from model.run_state import begun
-from model.schedule import moment_at
-from model.train import accumulate, update
+from model.network.art import Art
+from model.training.distributed import Team, joined
+from model.training.objective import Objective
+from model.training.run_state import begun
+from model.training.schedule import moment_at
+from model.training.train import accumulate, update
 from model.training_study.cells import Cell
 
 REPEATS = 3

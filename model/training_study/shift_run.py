@@ -10,13 +10,13 @@ from artgen.core.stream import Stream
 from artgen.dataset.split import Split
 from artgen.progress import progress
 from artgen.studies.table import write_table
-from model.art_file import load_art
 from model.data.library import read_library, taken, write_library
 from model.data.make import Request, make_library
 from model.data.shards import ShardSource
 from model.data.soup import TOLERANCE
-from model.material import WORKERS
 from model.precision import flushed_denormals
+from model.training.art_file import load_art
+from model.training.material import WORKERS
 from model.training_study.claims import AXIS, CENTER, DCDIST, DGIOU, TYPE
 from model.training_study.figures import plot_differences
 from model.training_study.judge import Judge

@@ -18,8 +18,8 @@ from torch.nn import functional
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.stream import Stream
 from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation
-from model.kinematics import unit
-from model.rays import Growth, half_sides
+from model.field.kinematics import unit
+from model.field.rays import Growth, half_sides
 from model.reconstruct.contact import points_inside
 
 SAMPLES = 56

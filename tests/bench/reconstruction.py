@@ -29,8 +29,6 @@ from artgen.textures.library import TextureLibrary
 from artgen.validate import validate_bundle
 from artgen.validate.subject import Source
 from artgen.worker import BlenderWorker
-from model.art import Art
-from model.art_file import load_art
 from model.batch import Articulation
 from model.config import Config
 from model.data.config import DataConfig
@@ -38,11 +36,13 @@ from model.data.library import packed, read_library
 from model.data.soup_source import SoupSource
 from model.evaluation.gates import Gates, gates
 from model.evaluation.held_out import HeldOut, held_out
-from model.field import Field
+from model.field.plane_field import Field
 from model.infer import predict
-from model.recipes import RECIPES
+from model.network.art import Art
 from model.reconstruct.assemble import Assembled, Wishes, assemble
 from model.reconstruct.surfaces import field_guess
+from model.training.art_file import load_art
+from model.training.recipes import RECIPES
 from tests.bench.known_fields import disturbed, known_field
 
 NOISES = (0.0, 0.01, 0.03, 0.1, 0.3)

@@ -10,9 +10,9 @@ from torch import Tensor
 
 from artgen.core.mesh import Floats
 from artgen.core.transform import inverted, look_at
-from model.analytic import BoxField
 from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation
-from model.rays import pixel_middles, pixel_rays
+from model.field.analytic import BoxField
+from model.field.rays import pixel_middles, pixel_rays
 
 CENTERS = ((0.0, 0.1, 0.0), (0.0, -0.36, 0.22), (0.0, -0.36, -0.22), (0.0, -0.44, 0.22))
 SIZES = ((0.8, 0.7, 0.9), (0.7, 0.12, 0.32), (0.7, 0.12, 0.32), (0.12, 0.05, 0.12))

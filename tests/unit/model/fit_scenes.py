@@ -2,9 +2,9 @@
 
 import torch
 
-from model.analytic import BoxField
 from model.batch import Articulation, Images
-from model.pictures import pictures
+from model.field.analytic import BoxField
+from model.field.pictures import pictures
 from tests.unit.model.box_scenes import box_field, cabinet, camera, intrinsics
 
 EYES = (

@@ -6,7 +6,7 @@ import pytest
 
 from artgen.core.errors import ModelError
 from model.config import Config
-from model.recipes import RECIPES, articulation_only
+from model.training.recipes import RECIPES, articulation_only
 
 TEXT = RECIPES["multiview"]("nano").to_json()
 

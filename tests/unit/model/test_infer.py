@@ -4,11 +4,11 @@ import pytest
 import torch
 
 from artgen.core.errors import ModelError
-from model.art import Art
 from model.batch import Images
 from model.config import Config
 from model.infer import predict
-from model.recipes import RECIPES, articulation_only
+from model.network.art import Art
+from model.training.recipes import RECIPES, articulation_only
 
 
 @pytest.fixture(scope="module")

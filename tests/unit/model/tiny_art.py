@@ -7,9 +7,9 @@ import torch
 from torch import Tensor
 
 from artgen.core.stream import Stream
-from model.art import Art
 from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation, Batch, Images, Rays
 from model.config import FieldConfig, ImageTokens, ModelConfig, PlaneConfig, Trunk
+from model.network.art import Art
 
 IMAGE_PX, SLOTS, STATES, VIEWS = 8, 4, 2, 3
 

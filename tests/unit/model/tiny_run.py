@@ -10,11 +10,11 @@ from torch import Tensor, nn
 
 from artgen.core.stream import Stream
 from model.batch import Articulation, Batch, Images
-from model.checkpoint import Checkpoint, found_checkpoints, read_checkpoint
-from model.distributed import Team
-from model.run_state import Run, begun, resume
-from model.schedule import Moment, TrainConfig
-from model.train import Supply, train
+from model.training.checkpoint import Checkpoint, found_checkpoints, read_checkpoint
+from model.training.distributed import Team
+from model.training.run_state import Run, begun, resume
+from model.training.schedule import Moment, TrainConfig
+from model.training.train import Supply, train
 
 ITEMS = 4
 STEPS = 6

@@ -9,7 +9,7 @@ from artgen.core.stream import Stream
 from model.data.draws import background_color
 from model.data.scene import drawn_scene
 from model.data.truth import articulation
-from model.kinematics import world_from_rest
+from model.field.kinematics import world_from_rest
 from tests.unit.model.data.small import CONFIG, soup
 
 

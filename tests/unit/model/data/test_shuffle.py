@@ -8,7 +8,7 @@ from artgen.core.stream import Stream
 from model.batch import Batch
 from model.data.shuffle import shuffled
 from model.data.soup_source import SoupSource
-from model.kinematics import world_from_rest
+from model.field.kinematics import world_from_rest
 from tests.unit.model.data.small import CONFIG, assert_equal, library
 
 SHUFFLED = dataclasses.replace(CONFIG, part_order="shuffled")

@@ -12,7 +12,7 @@ from artgen.core.stream import Stream
 from model.batch import FIXED, REVOLUTE
 from model.data.scene import centered
 from model.data.truth import Truth, articulation, truth
-from model.kinematics import world_from_rest
+from model.field.kinematics import world_from_rest
 from tests.unit.model.data.small import soup
 
 

@@ -9,8 +9,6 @@ import torch
 
 from artgen.core.errors import UsageError
 from artgen.core.stream import Stream
-from model.art import Art
-from model.art_file import ModelCard, save_art
 from model.batch import Articulation
 from model.data.library import write_library
 from model.data.scene import drawn_scene
@@ -19,7 +17,9 @@ from model.evaluation.cli import evaluate
 from model.evaluation.held_out import flips
 from model.evaluation.network_run import NetworkRun, shown_to
 from model.evaluation.predictors import counted_from_first, with_more_states
-from model.recipes import RECIPES
+from model.network.art import Art
+from model.training.art_file import ModelCard, save_art
+from model.training.recipes import RECIPES
 from tests.unit.model.data.small import CONFIG, library, soup
 from tests.unit.model.evaluation.test_predictions import articulation
 

@@ -6,7 +6,7 @@ import torch
 
 from model.batch import Articulation
 from model.evaluation.simulated import prediction_gates
-from model.prediction import Prediction
+from model.network.prediction import Prediction
 
 
 def prediction(articulation: Articulation) -> Prediction:

@@ -2,9 +2,9 @@
 
 import torch
 
+from model.field.kinematics import moved, world_from_rest
+from model.field.volume import render_along
 from model.field_study.scene import PARTS, boards, scene
-from model.kinematics import moved, world_from_rest
-from model.volume import render_along
 
 
 def test_boxes_hold_their_boards() -> None:

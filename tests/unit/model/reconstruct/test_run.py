@@ -10,13 +10,13 @@ from PIL import Image
 from artgen import cli
 from artgen.core.errors import ModelError, UsageError
 from artgen.export import read_bundle
-from model.art import Art
-from model.art_file import ModelCard, save_art
 from model.config import Config
-from model.recipes import RECIPES, articulation_only
+from model.network.art import Art
 from model.reconstruct import cli as command
 from model.reconstruct.cli import Reconstruct, ordered, shipped_checkpoint
 from model.reconstruct.run import STAGES, asset_name, reconstruct
+from model.training.art_file import ModelCard, save_art
+from model.training.recipes import RECIPES, articulation_only
 
 
 def untrained(path: Path, config: Config) -> Path:

@@ -3,8 +3,8 @@
 import numpy as np
 import torch
 
-from model.analytic import BoxField
 from model.batch import Articulation
+from model.field.analytic import BoxField
 from model.reconstruct.surfaces import field_guess
 
 RADIUS = 0.5

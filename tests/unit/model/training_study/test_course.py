@@ -7,7 +7,7 @@ import pytest
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import plain
 from model.evaluation.metrics import METRICS
-from model.run_state import differences
+from model.training.run_state import differences
 from model.training_study.ablations import arms
 from model.training_study.claims import ARMS, CLAIMS, NAMES
 from model.training_study.course import Course, curve_points

@@ -9,11 +9,11 @@ from artgen.core.errors import UsageError
 from artgen.dataset.members import encoded
 from artgen.dataset.shard import write_shard
 from artgen.studies.table import read_table
-from model.art import Art
-from model.art_file import ModelCard, save_art
 from model.data.library import read_library
-from model.recipes import RECIPES
-from model.settings import changed
+from model.network.art import Art
+from model.training.art_file import ModelCard, save_art
+from model.training.recipes import RECIPES
+from model.training.settings import changed
 from model.training_study.claims import BOXES, DGIOU
 from model.training_study.shift import study
 from model.training_study.shift_page import ShiftRow

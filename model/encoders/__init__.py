@@ -1,6 +1,0 @@
-"""Image encoders that supply semantics beside the patches: by name, frozen unless said."""
-
-from model.encoders.protocol import Encoder
-from model.encoders.registry import make_encoder
-
-__all__ = ["Encoder", "make_encoder"]

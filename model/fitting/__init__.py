@@ -1,0 +1,1 @@
+"""One object fitted to its own images: the baseline that learns from no other."""

@@ -1,0 +1,1 @@
+"""The network: tokens of images and parts, the trunk, what a slot's vector means."""

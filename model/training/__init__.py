@@ -1,0 +1,1 @@
+"""Recipes, schedule, losses, the loop, checkpoints and the file that ships."""

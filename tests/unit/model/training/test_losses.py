@@ -1,0 +1,388 @@
+"""Laws of the losses: zero at the truth, blind to empty slots, right slopes, and they all fall."""
+
+import dataclasses
+from collections.abc import Callable
+
+import pytest
+import torch
+from torch import Tensor
+
+from artgen.core.errors import ModelError
+from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation, Batch, Rays
+from model.config import Direction, LossWeights
+from model.field.volume import RayColors, render
+from model.network.art import Art
+from model.network.prediction import Prediction
+from model.training.losses import articulation_terms, image_terms, losses, mean
+from tests.unit.model.box_scenes import box_field, cabinet
+from tests.unit.model.tiny_art import BEYOND, SLOTS, drawn_batch, drawn_truth, made
+
+ALL = LossWeights(rgb=1.0, mask=1.0, distance=0.1)
+CERTAIN = 40.0
+"""A logit: exp(-40) is below half an eps of float64, so cross-entropies of it are 0."""
+
+
+def perfect(truth: Articulation) -> Prediction:
+    """A prediction that is the truth, without doubt."""
+    kinds = torch.stack([truth.type_BP == PRISMATIC, truth.type_BP != PRISMATIC], dim=-1)
+    slots = truth.valid_BP.shape[1]
+    parent = torch.nn.functional.one_hot(truth.parent_BP.clamp(min=0), slots)
+    count = torch.nn.functional.one_hot(truth.valid_BP.sum(dim=1) - 1, SLOTS)
+    return Prediction(
+        articulation=truth,
+        axis_BP3=truth.axis_BP3,
+        origin_BP3=truth.origin_BP3,
+        type_logits_BP2=CERTAIN * kinds.double(),
+        parent_logits_BPP=CERTAIN * parent.double(),
+        count_logits_BQ=CERTAIN * count.double(),
+        limited=True,
+    )
+
+
+def batch_of(truth: Articulation) -> Batch:
+    return dataclasses.replace(drawn_batch(0), truth=truth)
+
+
+def seen(rays: Rays) -> RayColors:
+    """What a perfect renderer would see."""
+    distance = torch.where(rays.alpha_BR > 0.0, 2.5, 0.0).double()
+    if rays.distance_BR is not None:
+        distance = rays.distance_BR
+    return RayColors(
+        part_rgb_BPR3=rays.part_rgb_BPR3,
+        part_alpha_BPR=rays.part_alpha_BPR,
+        rgb_BR3=rays.rgb_BR3,
+        alpha_BR=rays.alpha_BR,
+        distance_BR=distance,
+        part_distance_BPR=torch.zeros_like(rays.part_alpha_BPR),
+    )
+
+
+def test_nothing_is_lost_at_the_truth() -> None:
+    batch = drawn_batch(1, rays=5)
+    assert batch.rays is not None
+    table = losses(perfect(batch.truth), batch, ALL, seen(batch.rays))
+    assert set(table) == {
+        *("center", "size", "type", "axis", "origin", "motion", "limits", "parent", "count"),
+        *("part_rgb", "part_mask", "rgb", "mask", "distance", "total"),
+    }
+    # A cross-entropy of logits 40 apart is exp(-40) = 4e-18 per part.
+    assert all(float(term) <= 1e-16 for term in table.values())
+
+
+def test_total_is_the_sum_of_weighted_terms_and_zero_weights_leave_out() -> None:
+    batch = drawn_batch(2)
+    said = made(BEYOND)(batch.images, batch.truth.valid_BP)
+    plain = losses(said, batch, ALL)
+    double = losses(said, batch, dataclasses.replace(ALL, center=20.0, type=0.0))
+    assert double["center"] == 2.0 * plain["center"]
+    assert "type" not in double
+    total = sum(float(term.detach()) for name, term in plain.items() if name != "total")
+    # Eight positive float64 terms added in two orders.
+    assert float(plain["total"].detach()) == pytest.approx(total, rel=1e-14)
+
+
+def leaves(truth: Articulation, seed: int) -> dict[str, Tensor]:
+    """Free numbers where a prediction has numbers."""
+    torch.manual_seed(seed)
+    batch, slots = truth.valid_BP.shape
+    states = truth.motion_BTP.shape[1]
+    sizes = {
+        "center_BP3": (batch, slots, 3),
+        "size_BP3": (batch, slots, 3),
+        "axis_BP3": (batch, slots, 3),
+        "origin_BP3": (batch, slots, 3),
+        "motion_BTP": (batch, states, slots),
+        "limits_BP2": (batch, slots, 2),
+        "type_logits_BP2": (batch, slots, 2),
+        "parent_logits_BPP": (batch, slots, slots),
+        "count_logits_BQ": (batch, SLOTS),
+    }
+    return {name: 0.3 * torch.randn(size, dtype=torch.float64) for name, size in sizes.items()}
+
+
+def from_leaves(truth: Articulation, numbers: dict[str, Tensor]) -> Prediction:
+    inner = ("center_BP3", "size_BP3", "motion_BTP", "limits_BP2")
+    outer = (name for name in numbers if name not in inner)
+    return Prediction(
+        articulation=dataclasses.replace(truth, **{name: numbers[name] for name in inner}),
+        limited=True,
+        **{name: numbers[name] for name in outer},  # type: ignore[arg-type]
+    )
+
+
+@pytest.mark.parametrize("origin_to", ["point", "line"])
+@pytest.mark.parametrize("axis_sign", ["data", "free"])
+def test_slopes_of_the_articulation_terms_are_right(origin_to: str, axis_sign: str) -> None:
+    truth = drawn_truth(3)
+    weights = LossWeights(origin_to=origin_to, axis_sign=axis_sign)  # type: ignore[arg-type]
+    numbers = leaves(truth, 3)
+    names = list(numbers)
+
+    def terms(*values: Tensor) -> tuple[Tensor, ...]:
+        said = from_leaves(truth, dict(zip(names, values, strict=True)))
+        return tuple(articulation_terms(said, truth, weights).values())
+
+    assert torch.autograd.gradcheck(terms, [numbers[name].requires_grad_() for name in names])
+
+
+def test_slopes_of_the_image_terms_are_right() -> None:
+    batch = drawn_batch(4, rays=3)
+    rays = batch.rays
+    assert rays is not None
+    right = seen(rays)
+    names = ["part_rgb_BPR3", "part_alpha_BPR", "rgb_BR3", "alpha_BR", "distance_BR"]
+
+    def terms(*values: Tensor) -> tuple[Tensor, ...]:
+        rendered = dataclasses.replace(right, **dict(zip(names, values, strict=True)))
+        return tuple(image_terms(rendered, rays, batch.truth.valid_BP).values())
+
+    inputs = [(getattr(right, name) * 0.9 + 0.01).requires_grad_() for name in names]
+    assert torch.autograd.gradcheck(terms, inputs)
+
+
+def slopes(truth: Articulation, weights: LossWeights = ALL) -> dict[str, Tensor]:
+    numbers = {name: tensor.requires_grad_() for name, tensor in leaves(truth, 5).items()}
+    losses(from_leaves(truth, numbers), batch_of(truth), weights)["total"].backward()
+    return {
+        name: torch.zeros_like(tensor) if tensor.grad is None else tensor.grad
+        for name, tensor in numbers.items()
+    }
+
+
+def test_empty_slots_get_no_slope_and_full_ones_do() -> None:
+    truth = drawn_truth(6, (2, 4))
+    for name, slope in slopes(truth).items():
+        if name != "count_logits_BQ":
+            by_slot = slope.transpose(1, 2) if name == "motion_BTP" else slope
+            assert (by_slot[0, 2:] == 0.0).all(), name
+            assert (by_slot[1, 3] != 0.0).any() or name == "origin_BP3", name
+
+
+def test_what_empty_slots_hold_in_the_truth_changes_nothing() -> None:
+    truth = drawn_truth(7, (2, 3))
+    spoilt = truth.mapped(lambda t: torch.where(_spread(truth.valid_BP, t), t, t * 0 + 1))
+    numbers = leaves(truth, 7)
+    both = [
+        losses(
+            from_leaves(truth, numbers),
+            batch_of(dataclasses.replace(t, valid_BP=truth.valid_BP)),
+            ALL,
+        )
+        for t in (truth, spoilt)
+    ]
+    assert {name: float(term) for name, term in both[0].items()} == {
+        name: float(term) for name, term in both[1].items()
+    }
+
+
+def _spread(valid_BP: Tensor, tensor: Tensor) -> Tensor:
+    """The mask in the shape of a tensor with a slot dimension."""
+    if tensor.dim() == 3 and tensor.shape[2] == valid_BP.shape[1] and tensor.shape[1] == 2:
+        return valid_BP[:, None].expand_as(tensor)
+    while valid_BP.dim() < tensor.dim():
+        valid_BP = valid_BP[..., None]
+    return valid_BP.expand_as(tensor)
+
+
+def test_base_learns_its_box_alone() -> None:
+    truth = drawn_truth(8)
+    for name, slope in slopes(truth).items():
+        if name not in ("center_BP3", "size_BP3", "count_logits_BQ"):
+            base = slope[..., 0] if name == "motion_BTP" else slope[:, 0]
+            assert (base == 0.0).all(), name
+
+
+def test_axis_points_are_learned_where_parts_turn() -> None:
+    """A prismatic part has no axis point; its direction is learned all the same."""
+    truth = drawn_truth(9, (4, 4))
+    found = slopes(truth)
+    turns, slides = truth.type_BP == REVOLUTE, truth.type_BP == PRISMATIC
+    assert turns.any()
+    assert slides.any()
+    assert (found["origin_BP3"][turns] != 0.0).all()
+    assert (found["origin_BP3"][~turns] == 0.0).all()
+    assert (found["axis_BP3"][turns | slides] != 0.0).all()
+    assert (found["axis_BP3"][truth.type_BP == FIXED] == 0.0).all()
+
+
+def test_parts_that_do_not_move_teach_no_axis_where_so_asked() -> None:
+    truth = drawn_truth(10, (4, 4))
+    still = truth.motion_BTP.clone()
+    still[:, :, 1] = 0.2
+    truth = dataclasses.replace(truth, motion_BTP=still)
+    taught = slopes(truth, dataclasses.replace(ALL, unmoved=0.001))
+    for name in ("axis_BP3", "origin_BP3"):
+        assert (taught[name][:, 1] == 0.0).all(), name
+        assert (taught[name][:, 2:] != 0.0).any(), name
+    assert (slopes(truth)["axis_BP3"][:, 1] != 0.0).all()
+    assert (taught["motion_BTP"][:, :, 1] != 0.0).all()
+
+
+def test_free_signs_forgive_an_axis_and_motion_that_flip_together() -> None:
+    truth = drawn_truth(11)
+    said = perfect(truth)
+    flipped = dataclasses.replace(
+        said,
+        axis_BP3=-said.axis_BP3,
+        articulation=dataclasses.replace(truth, motion_BTP=-truth.motion_BTP),
+    )
+    free = articulation_terms(flipped, truth, LossWeights(axis_sign="free"))
+    held = articulation_terms(flipped, truth, LossWeights())
+    assert float(free["axis"]) == float(free["motion"]) == 0.0
+    # The difference of opposite unit vectors has length 2.
+    assert float(held["axis"]) == pytest.approx(4.0, rel=1e-14)
+    assert float(held["motion"]) > 0.0
+
+
+def test_any_point_of_the_axis_will_do_for_a_line() -> None:
+    truth = drawn_truth(12)
+    said = perfect(truth)
+    along = dataclasses.replace(said, origin_BP3=said.origin_BP3 + 0.7 * said.axis_BP3)
+    line = articulation_terms(along, truth, LossWeights(origin_to="line"))["origin"]
+    point = articulation_terms(along, truth, LossWeights())["origin"]
+    assert float(line) < 1e-30
+    assert float(point) == pytest.approx(0.49, rel=1e-13)
+
+
+def test_terms_are_means() -> None:
+    """The same objects twice lose as much as once, so weights do not depend on the batch."""
+    truth = drawn_truth(13)
+    numbers = leaves(truth, 13)
+    twice = truth.mapped(lambda tensor: torch.cat([tensor, tensor]))
+    doubled = {name: torch.cat([tensor, tensor]) for name, tensor in numbers.items()}
+    once = articulation_terms(from_leaves(truth, numbers), truth, ALL)
+    again = articulation_terms(from_leaves(twice, doubled), twice, ALL)
+    for name, term in once.items():
+        torch.testing.assert_close(again[name], term, rtol=1e-13, atol=0, msg=name)
+
+
+def test_a_term_without_anything_to_apply_to_is_zero_with_a_slope_of_zero() -> None:
+    truth = drawn_truth(14, (1, 1))
+    found = slopes(truth)
+    assert all(slope.isfinite().all() for slope in found.values())
+    assert (found["type_logits_BP2"] == 0.0).all()
+    values = torch.ones(3, requires_grad=True)
+    nothing = mean(values, torch.zeros(3, dtype=torch.bool))
+    nothing.backward()
+    assert float(nothing.detach()) == 0.0
+    assert values.grad is not None
+    assert (values.grad == 0.0).all()
+
+
+def test_with_every_weight_zero_the_total_is_zero() -> None:
+    batch = drawn_batch(15)
+    none = LossWeights(**dict.fromkeys(TERMS, 0.0))  # type: ignore[arg-type]
+    said = made(BEYOND)(batch.images, batch.truth.valid_BP)
+    table = losses(said, batch, none)
+    assert set(table) == {"total"}
+    assert float(table["total"].detach()) == 0.0
+
+
+TERMS = [
+    field.name
+    for field in dataclasses.fields(LossWeights)
+    if field.type is float and field.name != "unmoved"
+]
+
+
+def test_motion_counts_as_much_as_the_other_terms() -> None:
+    """The scale trap: being wrong by a typical motion must cost as much as a box that is off by a
+    tenth of a radius; unweighted, it would cost a twentieth of that and never be learned."""
+    truth = drawn_truth(16, (4, 4))
+    said = perfect(truth)
+    still = dataclasses.replace(
+        said, articulation=dataclasses.replace(truth, motion_BTP=torch.zeros_like(truth.motion_BTP))
+    )
+    shifted = dataclasses.replace(
+        said, articulation=dataclasses.replace(truth, center_BP3=truth.center_BP3 + 0.1)
+    )
+    batch, weights = batch_of(truth), LossWeights()
+    motion = losses(still, batch, weights)["motion"]
+    assert float(motion) > float(losses(shifted, batch, weights)["center"])
+
+
+def patches_of(rays: Rays, height: int, width: int) -> Rays:
+    return dataclasses.replace(rays, patch=(height, width))
+
+
+def test_perceptual_term_sees_whole_patches_of_the_parts_that_show() -> None:
+    batch = drawn_batch(17, rays=12)
+    assert batch.rays is not None
+    alpha = batch.rays.part_alpha_BPR.clone()
+    alpha[:, 1, :6] = 0.0
+    batch = dataclasses.replace(
+        batch, rays=patches_of(dataclasses.replace(batch.rays, part_alpha_BPR=alpha), 2, 3)
+    )
+    rays = batch.rays
+    assert rays is not None
+    looked: list[tuple[int, ...]] = []
+
+    def distance(ours: Tensor, theirs: Tensor) -> Tensor:
+        looked.append(tuple(theirs.shape))
+        first = rays.part_rgb_BPR3[0, 0, :6].reshape(2, 3, 3).movedim(-1, 0)
+        torch.testing.assert_close(theirs[0], first, rtol=0, atol=0)
+        return (ours - theirs).square().mean(dim=(1, 2, 3)) + 1.0
+
+    table = losses(
+        perfect(batch.truth),
+        batch,
+        ALL,
+        seen(rays),
+        perceptual=distance,
+        perceptual_factor=0.5,
+    )
+    # Seven valid parts in two patches each, less the first patch of slot 1 in both objects.
+    assert looked == [(12, 3, 2, 3)]
+    assert float(table["part_perceptual"]) == ALL.part_perceptual * 0.5
+
+
+def test_perceptual_term_refuses_single_rays() -> None:
+    batch = drawn_batch(18, rays=4)
+    assert batch.rays is not None
+    same: Callable[[Tensor, Tensor], Tensor] = lambda ours, theirs: ours.sum(dim=(1, 2, 3))  # noqa: E731
+    with pytest.raises(ModelError, match=r"set data\.patch_px"):
+        losses(perfect(batch.truth), batch, ALL, seen(batch.rays), perceptual=same)
+
+
+def cabinets(*, rays: int) -> Batch:
+    """Two cabinets in noise, and what rays through them see."""
+    batch = drawn_batch(19, rays=rays, dtype=torch.float32)
+    truth = cabinet(slots=SLOTS, batch=2)
+    assert batch.rays is not None
+    shown = render(box_field(truth), truth, batch.rays, inverse_beta=50.0, samples=16)
+    targets = dataclasses.replace(
+        batch.rays,
+        part_rgb_BPR3=shown.part_rgb_BPR3,
+        part_alpha_BPR=shown.part_alpha_BPR,
+        rgb_BR3=shown.rgb_BR3,
+        alpha_BR=shown.alpha_BR,
+        distance_BR=shown.distance_BR,
+    )
+    return dataclasses.replace(batch, truth=truth, rays=targets)
+
+
+@pytest.mark.parametrize("direction", ["image_from_part", "part_from_image"])
+def test_a_few_steps_lower_every_term(direction: Direction) -> None:
+    """Fixed batch, all heads, rendering included: every term falls below 0.8 of itself."""
+    batch = cabinets(rays=24)
+    rays = batch.rays
+    assert rays is not None
+    torch.manual_seed(0)
+    art = Art(
+        dataclasses.replace(BEYOND, trunk=dataclasses.replace(BEYOND.trunk, direction=direction))
+    )
+    optimizer = torch.optim.Adam(art.parameters(), lr=3e-3)
+    history: list[dict[str, float]] = []
+    for _ in range(80):
+        said = art(batch.images, batch.truth.valid_BP)
+        rendered = render(said.field(), batch.truth, rays, inverse_beta=10.0, samples=8)
+        table = losses(said, batch, ALL, rendered)
+        optimizer.zero_grad()
+        table["total"].backward()
+        optimizer.step()
+        history.append({name: float(term.detach()) for name, term in table.items()})
+    first, last = history[0], history[-1]
+    assert {
+        name: last[name] / first[name] for name in first if last[name] > 0.8 * first[name]
+    } == {}

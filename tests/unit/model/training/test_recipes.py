@@ -1,0 +1,62 @@
+"""What the recipes promise: views, states, terms, and sizes that fit their data."""
+
+import pytest
+
+from model.training.recipes import RECIPES, articulation_only
+
+SIZES = ("nano", "s", "paper")
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_recipes_say_their_name_and_fit_their_data(size: str) -> None:
+    for name, recipe in RECIPES.items():
+        config = recipe(size)  # type: ignore[arg-type]
+        assert (config.recipe, config.size) == (name, size)
+        assert config.data.input_px == config.model.images.image_px
+        assert config.data.states == 2
+        largest = max(stage.target_px for stage in config.train.stages)
+        assert largest <= config.data.render_px
+
+
+@pytest.mark.parametrize("size", ["s", "paper"])
+def test_the_papers_views(size: str) -> None:
+    """V = 4 and V = 1, T = 2."""
+    assert RECIPES["multiview"](size).data.views == 4  # type: ignore[arg-type]
+    assert RECIPES["monocular"](size).data.views == 1  # type: ignore[arg-type]
+
+
+def test_the_papers_optimizer() -> None:
+    assert RECIPES["multiview"]("paper").train.betas == (0.9, 0.95)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_static_training_renders_and_learns_boxes_alone(size: str) -> None:
+    """As the paper pre-trains; the number of parts is learned beside it where there is a head."""
+    config = RECIPES["static_pretrain"](size)  # type: ignore[arg-type]
+    weights = config.weights
+    assert (weights.type, weights.axis, weights.origin, weights.motion) == (0.0, 0.0, 0.0, 0.0)
+    assert (weights.limits, weights.parent) == (0.0, 0.0)
+    assert min(weights.center, weights.size, weights.part_rgb, weights.part_mask) > 0.0
+    assert config.data.motion == "rest"
+    assert config.train.rendered == 0.0
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_debugging_runs_the_renderer_from_the_first_step(size: str) -> None:
+    config = RECIPES["debug"](size)  # type: ignore[arg-type]
+    assert config.train.rendered == 0.0
+    assert config.data.rays > 0
+
+
+def test_without_shapes_there_are_no_rays() -> None:
+    config = articulation_only(RECIPES["multiview"]("paper"))
+    assert config.model.planes is None
+    assert config.data.rays == 0
+    assert config.data.patch_px == 0
+
+
+def test_paper_size_has_patches_for_its_perceptual_term() -> None:
+    config = RECIPES["multiview"]("paper")
+    assert config.weights.part_perceptual > 0.0
+    assert config.data.rays % config.data.patch_px**2 == 0
+    assert config.data.patch_px > 0

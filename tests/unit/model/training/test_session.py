@@ -1,0 +1,196 @@
+"""A whole session on a tiny network: from seeds to a network file, resumed and refused."""
+
+import dataclasses
+from pathlib import Path
+
+import pytest
+import torch
+
+from artgen.core.errors import ModelError, UsageError
+from artgen.progress import silent
+from model.batch import Batch
+from model.config import Config
+from model.data.kept import Kept
+from model.data.library import packed, write_library
+from model.data.loader import batches
+from model.data.soup import seed_soup
+from model.data.soup_source import SoupSource
+from model.network.art import Art
+from model.tensor_file import write_tensors
+from model.training.art_file import ModelCard, load_art, save_art
+from model.training.checkpoint import found_checkpoints, read_checkpoint
+from model.training.log import read_lines
+from model.training.material import Material, make_missing, opened
+from model.training.objective import Objective
+from model.training.picture import picture_of
+from model.training.recipes import articulation_only, debug
+from model.training.schedule import moment_at
+from model.training.session import run_session
+from model.training.settings import changed
+
+TINY = changed(
+    debug("nano"),
+    [
+        *("model.images.image_px=16", "model.images.encoder=none", "model.trunk.width=24"),
+        *("model.trunk.blocks=2", "model.trunk.heads=2", "model.planes.grid=4"),
+        *("data.input_px=16", "data.render_px=24", "data.target_px=16", "data.batch=2"),
+        *("data.rays=16", "data.slots=4", "train.steps=4", "train.save_every=2"),
+        *("train.picture_every=2", 'train.stages=[{"start":0.0,"target_px":16}]'),
+    ],
+)
+
+
+@pytest.fixture(scope="module")
+def source() -> SoupSource:
+    return SoupSource(packed([seed_soup("laptop", 0, k) for k in range(2)]), slots=4)
+
+
+@pytest.fixture(scope="module")
+def material(source: SoupSource, tmp_path_factory: pytest.TempPathFactory) -> Material:
+    path = tmp_path_factory.mktemp("library") / "laptops.npz"
+    write_library(path, source.library)
+    return Material(library=path, split=None)
+
+
+@pytest.fixture(scope="module")
+def batch(source: SoupSource) -> Batch:
+    return next(batches(source, TINY.data))
+
+
+def session(
+    material: Material, folder: Path, config: Config = TINY, *, start: Path | None = None
+) -> Path:
+    return run_session(
+        config, material, folder, environment={}, start=start, device="cpu", show=silent
+    )
+
+
+def test_a_session_leaves_a_network_that_equals_the_average(
+    tmp_path: Path, material: Material
+) -> None:
+    art, config, card = load_art(session(material, tmp_path))
+    assert config == TINY
+    assert (card.steps, card.data["seen"], card.data["items"]) == (4, 8, 2)
+    average = read_checkpoint(found_checkpoints(tmp_path)[-1]).average
+    for name, value in art.state_dict().items():
+        assert torch.equal(value, average[f"art.{name}"])
+    assert [line["step"] for line in read_lines(tmp_path / "log.jsonl")] == [1, 2, 3, 4]
+    assert len(list((tmp_path / "pictures").iterdir())) == 2
+
+
+def test_a_session_goes_on_to_the_same_bytes_and_refuses_other_settings(
+    tmp_path: Path, material: Material
+) -> None:
+    session(material, tmp_path)
+    found = found_checkpoints(tmp_path)[-1]
+    weights = read_checkpoint(found).weights
+    found.unlink()
+    session(material, tmp_path)
+    for name, value in read_checkpoint(found).weights.items():
+        assert torch.equal(value, weights[name])
+    with pytest.raises(UsageError, match=r"config\.data\.seed 0, now 1"):
+        session(material, tmp_path, changed(TINY, ["data.seed=1"]))
+
+
+def test_a_session_begins_with_given_weights(tmp_path: Path, material: Material) -> None:
+    """One step at rate 0 leaves the weights as they were."""
+    torch.manual_seed(7)
+    art = Art(TINY.model)
+    save_art(tmp_path / "start.safetensors", art, TINY, ModelCard())
+    still = changed(TINY, ["train.steps=1", "train.learning_rate=0"])
+    found, _, _ = load_art(
+        session(material, tmp_path / "run", still, start=tmp_path / "start.safetensors")
+    )
+    for name, value in found.state_dict().items():
+        assert torch.equal(value, art.state_dict()[name])
+
+
+def test_half_weights_round_to_11_bits(tmp_path: Path) -> None:
+    path = tmp_path / "half.safetensors"
+    torch.manual_seed(3)
+    art, card = Art(TINY.model), ModelCard(hours=0.5, metrics={"psnr_db": 20.0}, limits=("none",))
+    save_art(path, art, TINY, card, stored="float16")
+    found, _, read_card = load_art(path)
+    assert read_card == card
+    for name, value in found.state_dict().items():
+        # Half a unit in the 11th place, or half of the smallest number below 2 ** -14.
+        assert torch.allclose(value, art.state_dict()[name], rtol=2.0**-11, atol=2.0**-25)
+
+
+def test_network_files_of_another_kind_are_refused(tmp_path: Path) -> None:
+    write_tensors(tmp_path / "a", {}, schema="artgen-training/1", meaning={})
+    with pytest.raises(ModelError, match="expected 'artgen-art/1'"):
+        load_art(tmp_path / "a")
+
+
+def test_the_objective_learns_joints_before_it_renders(batch: Batch) -> None:
+    torch.manual_seed(0)
+    objective = Objective(Art(TINY.model), TINY.weights)
+    moment = moment_at(TINY.train, 0)
+    early = objective(batch, dataclasses.replace(moment, rendered=False))
+    late = objective(batch, moment)
+    assert "part_mask" in late
+    assert early.keys() == late.keys() - {"part_mask", "part_rgb"}
+    for name in early.keys() - {"total"}:
+        assert torch.equal(early[name], late[name])
+    terms = [value for name, value in late.items() if name != "total"]
+    assert torch.equal(late["total"], torch.stack(terms).sum())
+
+
+def test_boxes_get_no_gradient_through_rendering(batch: Batch) -> None:
+    """Masks alone move neither centers nor sizes, though rays follow the predicted boxes."""
+    torch.manual_seed(0)
+    art = Art(TINY.model)
+    masks = {field.name for field in dataclasses.fields(TINY.weights) if field.type is float}
+    weights = changed(TINY, [f"weights.{name}=0" for name in masks - {"part_mask"}]).weights
+    moment = dataclasses.replace(moment_at(TINY.train, 0), forced=False)
+    seen = []
+    art.register_forward_hook(lambda module, given, made: seen.append(made.articulation))
+    loss = Objective(art, weights)(batch, moment)["total"]
+    (articulation,) = seen
+    parts = (articulation.center_BP3, articulation.size_BP3, articulation.motion_BTP)
+    center, size, motion = torch.autograd.grad(loss, parts, allow_unused=True)
+    assert center is None or not bool(center.any())
+    assert size is None or not bool(size.any())
+    assert motion is not None
+
+
+def test_pictures_show_each_object_in_a_row(batch: Batch) -> None:
+    torch.manual_seed(0)
+    image = picture_of(Art(TINY.model), batch, moment_at(TINY.train, 0))
+    assert image.shape == (2 * 16, 4 * 16, 3)
+    first = (255.0 * batch.images.rgb_BTV3HW[0, 0, 0].movedim(0, -1)).round().byte().numpy()
+    assert (image[:16, :16] == first).all()
+
+
+def test_articulation_alone_trains_without_rays(source: SoupSource) -> None:
+    config = articulation_only(TINY)
+    batch = next(batches(source, config.data))
+    losses = Objective(Art(config.model), config.weights)(batch, moment_at(config.train, 0))
+    assert "part_mask" not in losses
+    assert bool(torch.isfinite(losses["total"]))
+
+
+def test_kept_scenes_come_again_to_the_bit(source: SoupSource) -> None:
+    """Four scenes of two objects: the second epoch shows what the first did, in another order."""
+    kept = Kept(source, 2)
+    supply = batches(kept, dataclasses.replace(TINY.data, batch=4))
+    first, second, third = next(supply), next(supply), next(supply)
+
+    def rows(batch: Batch) -> set[bytes]:
+        return {image.numpy().tobytes() for image in batch.images.rgb_BTV3HW}
+
+    assert len(kept) == 4
+    assert len(rows(first)) == 4
+    assert rows(first) == rows(second) == rows(third)
+    again = next(batches(Kept(source, 2), dataclasses.replace(TINY.data, batch=4), 4))
+    assert torch.equal(again.images.rgb_BTV3HW, second.images.rgb_BTV3HW)
+
+
+def test_objects_are_made_once_and_kept(tmp_path: Path) -> None:
+    material = Material(categories=("laptop",), objects=2, split=None)
+    make_missing(material, tmp_path, TINY.data, show=silent)
+    written = (tmp_path / "library.npz").read_bytes()
+    make_missing(material, tmp_path, TINY.data, show=silent)
+    assert (tmp_path / "library.npz").read_bytes() == written
+    assert len(opened(material, tmp_path, TINY.data)) == 2
