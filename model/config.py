@@ -212,7 +212,7 @@ class LossWeights:
         type: cross-entropy of revolute and prismatic, movable parts.
         axis: squared difference of unit axes, movable parts.
         origin: squared distance of axis points, revolute parts.
-        motion: squared difference of motions, movable parts.
+        motion: squared difference of motions, movable parts; see `motion_as`.
         limits: squared difference of limits, movable parts.
         parent: cross-entropy of parents.
         count: cross-entropy of the number of parts.
@@ -224,6 +224,8 @@ class LossWeights:
         distance: absolute difference of distances to the first surface; beyond the paper.
         origin_to: `point` holds origins to the axis point nearest the box's middle; `line` to any
             point of the true axis.
+        motion_as: `numbers` compares motions as they are, `paths` the ways that corners of a part's
+            box go, in radii: a dial that nobody sees turn then counts less than a door.
         axis_sign: `data` learns that positive motion opens; `free` lets axis and motion flip.
         unmoved: joints whose motion varies less over the states do not teach axis and origin.
     """
@@ -246,6 +248,7 @@ class LossWeights:
     origin_to: Literal["point", "line"] = "point"
     axis_sign: Literal["data", "free"] = "data"
     unmoved: float = 0.0
+    motion_as: Literal["numbers", "paths"] = dataclasses.field(default="numbers", metadata=LATER)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -52,7 +52,8 @@ def test_nothing_large_or_foreign_is_tracked() -> None:
     for name in filter(None, listed):
         path = ROOT / name
         if path.is_file():
-            assert path.stat().st_size <= 1_500_000, name
+            ships = name.startswith("model/checkpoints/")
+            assert path.stat().st_size <= (30_000_000 if ships else 1_500_000), name
             assert path.suffix not in {".glb", ".tar", ".blend", ".npz"}, name
 
 

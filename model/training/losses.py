@@ -74,7 +74,7 @@ def articulation_terms(
         "origin": origin_error(
             prediction.origin_BP3, truth, taught & (truth.type_BP == REVOLUTE), weights
         ),
-        "motion": mean_squared(sign_BP1 * motion_BPT, truth.motion_BTP.transpose(1, 2), moves),
+        "motion": motion_error(sign_BP1 * motion_BPT, truth, moves, weights),
     }
     if prediction.limited:
         terms["limits"] = mean_squared(said.limits_BP2, truth.limits_BP2, moves)
@@ -154,6 +154,30 @@ def origin_error(
         along = (apart * truth.axis_BP3).sum(dim=-1, keepdim=True)
         apart = apart - along * truth.axis_BP3
     return mean(apart.square().sum(dim=-1), turns_BP)
+
+
+def motion_error(
+    motion_BPT: Tensor, truth: Articulation, moves_BP: Tensor, weights: LossWeights
+) -> Tensor:
+    """Mean squared difference of motions, in their own unit or as paths of the parts' corners."""
+    apart_BPT = full(motion_BPT) - truth.motion_BTP.transpose(1, 2)
+    if weights.motion_as == "paths":
+        apart_BPT = apart_BPT * path_lengths(truth)[..., None]
+    return mean(apart_BPT.square().mean(dim=-1), moves_BP)
+
+
+def path_lengths(truth: Articulation) -> Tensor:
+    """(B, P) radii that the corners of a part's box travel a unit of motion, root mean square.
+
+    A unit is a full turn, or two radii; the square of a corner's distance to the axis has the mean
+    of that of the box's middle plus those of the half sides across the axis.
+    """
+    axis_BP3 = truth.axis_BP3
+    arm_BP3 = truth.center_BP3 - truth.origin_BP3
+    arm_BP3 = arm_BP3 - (arm_BP3 * axis_BP3).sum(dim=-1, keepdim=True) * axis_BP3
+    across_BP3 = (truth.size_BP3 / 2.0).square() * (1.0 - axis_BP3.square())
+    turned_BP = 2.0 * torch.pi * (arm_BP3.square() + across_BP3).sum(dim=-1).sqrt()
+    return torch.where(truth.type_BP == REVOLUTE, turned_BP, 2.0)
 
 
 def type_entropy(logits_BP2: Tensor, type_BP: Tensor, moves_BP: Tensor) -> Tensor:

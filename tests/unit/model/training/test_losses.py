@@ -10,10 +10,18 @@ from torch import Tensor
 from artgen.core.errors import ModelError
 from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation, Batch, Rays
 from model.config import Direction, LossWeights
+from model.field.kinematics import world_from_rest
 from model.field.volume import RayColors, render
 from model.network.art import Art
 from model.network.prediction import Prediction
-from model.training.losses import articulation_terms, image_terms, losses, mean
+from model.training.losses import (
+    articulation_terms,
+    image_terms,
+    losses,
+    mean,
+    motion_error,
+    path_lengths,
+)
 from tests.unit.model.box_scenes import box_field, cabinet
 from tests.unit.model.tiny_art import BEYOND, SLOTS, drawn_batch, drawn_truth, made
 
@@ -386,3 +394,41 @@ def test_a_few_steps_lower_every_term(direction: Direction) -> None:
     assert {
         name: last[name] / first[name] for name in first if last[name] > 0.8 * first[name]
     } == {}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_paths_are_those_of_the_corners(seed: int) -> None:
+    """A small change of motion moves the corners of boxes as far as the term says.
+
+    Root mean squares over the corners; the chord of an angle a falls short of its arc by a^2 / 24.
+    """
+    truth = drawn_truth(seed)
+    step = 1e-4
+    root = torch.zeros_like(truth.parent_BP).masked_fill(~truth.valid_BP, -1)
+    first = dataclasses.replace(truth, parent_BP=root)
+    second = dataclasses.replace(first, motion_BTP=first.motion_BTP + step)
+    signs = torch.cartesian_prod(*[torch.tensor([-0.5, 0.5], dtype=torch.float64)] * 3)
+    corners_BP83 = truth.center_BP3[:, :, None] + signs * truth.size_BP3[:, :, None]
+    moved = [
+        torch.einsum("bpij,bpkj->bpki", pose[..., :3, :3], corners_BP83) + pose[:, :, None, :3, 3]
+        for pose in (world_from_rest(first)[:, 0], world_from_rest(second)[:, 0])
+    ]
+    went_BP = (moved[1] - moved[0]).square().sum(dim=-1).mean(dim=-1).sqrt()
+    moves = truth.valid_BP & (truth.type_BP != FIXED)
+    relative = (2.0 * torch.pi * step) ** 2 / 24.0 + 1e-9  # Roundings of 1 against ways of 1e-5.
+    torch.testing.assert_close(
+        went_BP[moves], step * path_lengths(truth)[moves], rtol=relative, atol=0
+    )
+
+
+def test_as_paths_a_dial_counts_less_than_a_door() -> None:
+    """The same error of motion, on a part a tenth as large about an axis through its middle."""
+    truth = drawn_truth(0)
+    weights = LossWeights(motion_as="paths")
+    turning = torch.full_like(truth.type_BP, REVOLUTE)
+    door = dataclasses.replace(truth, type_BP=turning, origin_BP3=truth.center_BP3)
+    dial = dataclasses.replace(door, size_BP3=0.1 * door.size_BP3)
+    guess_BPT = door.motion_BTP.transpose(1, 2) + 0.01
+    large, small = (motion_error(guess_BPT, own, own.valid_BP, weights) for own in (door, dial))
+    # Squares: a hundredth, to some roundings of each of two dozen numbers.
+    torch.testing.assert_close(small, 0.01 * large, rtol=1e-12, atol=0)
