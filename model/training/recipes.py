@@ -92,6 +92,11 @@ TRAIN: Mapping[Size, TrainConfig] = {
     ),
 }
 
+BY_PATHS = LossWeights(motion=10.0, motion_as="paths")
+"""Motions compared by the ways that parts go, as the small sizes learn them."""
+
+WEIGHTS: Mapping[Size, LossWeights] = {"nano": BY_PATHS, "s": BY_PATHS, "paper": LossWeights()}
+
 STATIC = LossWeights(type=0.0, axis=0.0, origin=0.0, motion=0.0, limits=0.0, parent=0.0)
 """Rendering and boxes alone, as the paper pre-trains."""
 
@@ -99,7 +104,12 @@ STATIC = LossWeights(type=0.0, axis=0.0, origin=0.0, motion=0.0, limits=0.0, par
 def multiview(size: Size) -> Config:
     """Several views of two states; the paper's V = 4, T = 2."""
     return Config(
-        recipe="multiview", size=size, model=MODELS[size], data=DATA[size], train=TRAIN[size]
+        recipe="multiview",
+        size=size,
+        model=MODELS[size],
+        data=DATA[size],
+        weights=WEIGHTS[size],
+        train=TRAIN[size],
     )
 
 
