@@ -45,6 +45,7 @@ from model.reconstruct.seating import seated
 from model.reconstruct.sense import sensible
 from model.reconstruct.shapes import shape_of
 from model.reconstruct.skin import PaintOver, colored, moved_color, nearest_part
+from model.reconstruct.substance import substantial
 
 CATEGORY = "reconstructed"
 CLEARANCE = 1e-3
@@ -138,7 +139,7 @@ def assemble(
     )
     cutter = Cutter(wishes.clearance)
     scene = unblocked(seated(apart_at_rest(scene, cutter)))
-    scene = proven(seated(made_sound(clear_ways(scene, cutter))))
+    scene = substantial(proven(seated(made_sound(clear_ways(scene, cutter)))))
     order = _in_order(scene)
     scene = scene.renamed(order)
     names = {slot: order.get(name, name) for slot, name in names.items()}

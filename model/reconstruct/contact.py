@@ -18,8 +18,6 @@ from artgen.core.mesh import Floats, TriMesh
 from artgen.geometry.normals import face_vectors
 from artgen.geometry.solid import Solid, slab
 
-CONVEX = 0.995
-"""Share of its hull that a solid fills to be stood for by the hull."""
 MOST_PIECES = 40
 STEPS = (14, 28, 56)
 """Cells along the longest side, between the planes of faces; finer where coarse hold little."""
@@ -36,7 +34,7 @@ FACE = 0.02
 INSET = 2e-5
 """m; samples and faces of boxes stay this far inside planes, against rounding."""
 OUTSIDE = 2e-9
-"""m3; what of a box may lie outside of its part: 0.1 mm of an edge of 4 x 5 mm."""
+"""m3; what of a piece may lie outside of its part: 0.1 mm of an edge of 4 x 5 mm."""
 SAMPLES = (0.02, 0.5, 0.98)
 """Places across a cell that have to lie inside."""
 LEAST = 0.002
@@ -48,14 +46,14 @@ Cells = NDArray[np.bool_]
 
 
 def contact_pieces(solid: Solid, *, slanted: int) -> tuple[Solid, ...]:
-    """Convex solids inside of `solid`, largest first; its hull where that is all but the same, or
+    """Convex solids inside of `solid`, largest first; its hull where that lies inside as well, or
     where no box fits in.
 
     Args:
         slanted: boxes at most that are not along the axes; a bundle holds each as a file.
     """
     hull = solid.hull()
-    if solid.volume >= CONVEX * hull.volume:
+    if (hull - solid).volume <= OUTSIDE:
         return (hull,)
     best = boxes_inside(solid)
     if _volume(best) < ENOUGH * solid.volume:
