@@ -11,6 +11,7 @@ from artgen.core.errors import ModelError
 from artgen.core.jsonio import file_hash
 from model.batch import FIXED, PRISMATIC, REVOLUTE
 from model.config import ModelConfig
+from model.field.rays import waves
 from model.network.art import Art
 from model.network.encoders.vit import HEAD, VisionTransformer
 from model.network.prediction import Prediction
@@ -286,15 +287,15 @@ def summed(said: Prediction) -> Tensor:
 
 
 def test_kinds_of_content_begin_with_equal_shares_of_a_token() -> None:
-    """Six numbers of a ray count as much as the 192 of a patch's colors; within a factor of 2,
-    since shares are set for usual images and these are noise."""
+    """The numbers of a ray count as much as the 256 of a patch's colors; within a factor of 2,
+    since shares are set for usual images, and sines are a little larger than what they are of."""
     art = made(MODELS["nano"], dtype=torch.float32).images
     torch.manual_seed(1)
     rays = torch.nn.functional.normalize(torch.randn(512, 3), dim=-1)
     moments = 0.6 * torch.linalg.cross(rays, torch.randn(512, 3))
     contents = (
         2.0 * torch.rand(512, art.widths[0]) - 1.0,
-        torch.cat([rays, moments], dim=-1),
+        waves(torch.cat([rays, moments], dim=-1), MODELS["nano"].images.ray_octaves),
         torch.randn(512, art.widths[2]),
         0.6 * torch.randn(512, art.widths[3]),
     )
