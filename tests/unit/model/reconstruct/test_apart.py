@@ -12,6 +12,7 @@ from artgen.validate.sweep import sweep_poses, sweeps
 from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways
 from model.reconstruct.scene import Scene
 from tests.unit.model.reconstruct.perfect import open_box
+from tests.unit.model.reconstruct.scenes import stated
 
 CLEARANCE = 1e-3
 SHELL = open_box(np.array([-0.3, -0.25, 0.0]), np.array([0.3, 0.25, 0.4]), 0.02, open_to=1, side=0)
@@ -19,27 +20,12 @@ SHELL = open_box(np.array([-0.3, -0.25, 0.0]), np.array([0.3, 0.25, 0.4]), 0.02,
 
 def slide(part: str, upper: float, *, parent: str = "base") -> Joint:
     """Toward the front."""
-    return _joint(part, "prismatic", (0.0, -1.0, 0.0), (0.0, 0.0, 0.0), upper, parent)
+    return stated(part, "prismatic", axis=(0.0, -1.0, 0.0), upper=upper, parent=parent)
 
 
 def hinge(part: str, origin: tuple[float, float, float], upper: float) -> Joint:
     """About an upright axis; a left one opens to the front."""
-    return _joint(part, "revolute", (0.0, 0.0, -1.0), origin, upper, "base")
-
-
-def _joint(part, kind, axis, origin, upper, parent) -> Joint:  # type: ignore[no-untyped-def]
-    return Joint(
-        name=f"{part}_joint",
-        type=kind,
-        parent=parent,
-        child=part,
-        axis=axis,
-        origin=origin,
-        limit=Limit(lower=0.0, upper=upper),
-        friction=1.0,
-        damping=0.0,
-        effort=1.0,
-    )
+    return stated(part, "revolute", axis=(0.0, 0.0, -1.0), origin=origin, upper=upper)
 
 
 def settled(solids: Mapping[str, Solid], *joints: Joint) -> Scene:
@@ -117,7 +103,9 @@ def test_what_carries_a_part_gives_way_to_it() -> None:
     """A knob let into a door turns in a bore of the door."""
     door = slab((-0.3, -0.27, 0.0), (0.3, -0.252, 0.4))
     knob = slab((0.2, -0.3, 0.18), (0.24, -0.26, 0.22))
-    turn = _joint("knob", "revolute", (0.0, 1.0, 0.0), (0.22, 0.0, 0.2), 1.5, "door")
+    turn = stated(
+        "knob", "revolute", axis=(0.0, 1.0, 0.0), origin=(0.22, 0.0, 0.2), upper=1.5, parent="door"
+    )
     scene = settled(
         {"base": SHELL, "door": door, "knob": knob},
         hinge("door", (-0.3, -0.27, 0.0), math.pi / 2.0),
