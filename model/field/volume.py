@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import torch
 from torch import Tensor
 
-from model.batch import Articulation, Rays, TensorBlock
+from model.batch import Articulation, TensorBlock
 from model.field.kinematics import rays_at_rest, world_from_rest
 from model.field.plane_field import Field, packed
 from model.field.rays import FAR, Growth, box_span, half_sides
@@ -44,36 +44,6 @@ class RayColors(TensorBlock):
     alpha_BR: Tensor
     distance_BR: Tensor
     part_distance_BPR: Tensor
-
-
-def render(
-    field: Field,
-    articulation: Articulation,
-    rays: Rays,
-    *,
-    inverse_beta: Tensor | float,
-    samples: int,
-    coarse: int = 0,
-    quadrature: Quadrature = "point",
-    growth: Growth = Growth(),  # noqa: B008 (frozen)
-    stop_gradient: bool = True,
-    generator: torch.Generator | None = None,
-) -> RayColors:
-    """What `rays` see of the articulated field: `render_along` with the rays' own arrays."""
-    return render_along(
-        field,
-        articulation,
-        rays.origin_BR3,
-        rays.direction_BR3,
-        rays.state_BR,
-        inverse_beta=inverse_beta,
-        samples=samples,
-        coarse=coarse,
-        quadrature=quadrature,
-        growth=growth,
-        stop_gradient=stop_gradient,
-        generator=generator,
-    )
 
 
 def render_along(

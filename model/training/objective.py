@@ -11,7 +11,7 @@ from torch import Tensor, nn
 from model.batch import Articulation, Batch
 from model.config import LossWeights
 from model.field.plane_field import PlaneField
-from model.field.volume import RayColors, render
+from model.field.volume import RayColors, render_along
 from model.network.art import Art
 from model.network.prediction import Prediction
 from model.training.losses import ImageDistance, losses
@@ -75,14 +75,15 @@ def seen_along(
     if prediction.planes_BP6CHW is None or batch.rays is None:
         return None
     articulation = batch.truth if moment.forced else prediction.posed_as(batch.truth)
-    return render(
+    rays = batch.rays
+    return render_along(
         field_on(prediction, articulation),
         articulation,
-        batch.rays,
+        *(rays.origin_BR3, rays.direction_BR3, rays.state_BR),
         inverse_beta=moment.inverse_beta,
         samples=moment.samples,
         coarse=moment.coarse,
-        generator=_generator(batch.rays.origin_BR3.device) if draws else None,
+        generator=_generator(rays.origin_BR3.device) if draws else None,
     )
 
 

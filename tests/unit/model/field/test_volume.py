@@ -9,14 +9,14 @@ import torch
 import trimesh
 from torch import Tensor
 
-from model.batch import Articulation, Rays
+from model.batch import Articulation
 from model.config import FieldConfig
 from model.field.analytic import BoxField, box_distance
 from model.field.kinematics import rays_at_rest, world_from_rest
 from model.field.plane_field import FieldHead, PlaneField
 from model.field.rays import NO_GROWTH, Growth, box_span, half_sides
 from model.field.sampling import optical_depth, placed
-from model.field.volume import RayColors, render, render_along
+from model.field.volume import RayColors, render_along
 from tests.unit.model.box_scenes import COLORS, PARTS, box_field, cabinet, changed, view
 
 EYES = ((1.8, -2.2, 1.4), (-2.4, -1.6, 0.9), (0.3, -3.0, 0.2))
@@ -230,26 +230,6 @@ def test_objects_of_a_batch_are_each_on_their_own() -> None:
             torch.testing.assert_close(
                 getattr(both, name)[b], getattr(alone, name)[0], rtol=0, atol=1e-6
             )
-
-
-def test_rays_block_and_arrays_are_the_same() -> None:
-    articulation = cabinet()
-    origin, direction = view(8, EYES[1])
-    states = torch.ones(1, 64, dtype=torch.long)
-    nothing = torch.zeros(1, 6, 64)
-    rays = Rays(
-        origin_BR3=origin,
-        direction_BR3=direction,
-        state_BR=states,
-        part_rgb_BPR3=nothing[..., None].expand(-1, -1, -1, 3),
-        part_alpha_BPR=nothing,
-        rgb_BR3=torch.zeros(1, 64, 3),
-        alpha_BR=torch.zeros(1, 64),
-    )
-    field = box_field(articulation)
-    a = render(field, articulation, rays, inverse_beta=50.0, samples=8)
-    b = render_along(field, articulation, origin, direction, states, inverse_beta=50.0, samples=8)
-    assert torch.equal(a.rgb_BR3, b.rgb_BR3)
 
 
 class Slab:

@@ -11,7 +11,8 @@ from artgen.core.errors import ModelError
 from model.batch import FIXED, PRISMATIC, REVOLUTE, Articulation, Batch, Rays
 from model.config import Direction, LossWeights
 from model.field.kinematics import world_from_rest
-from model.field.volume import RayColors, render
+from model.field.plane_field import Field
+from model.field.volume import RayColors, render_along
 from model.network.art import Art
 from model.network.prediction import Prediction
 from model.training.losses import (
@@ -353,12 +354,20 @@ def test_perceptual_term_refuses_single_rays() -> None:
         losses(perfect(batch.truth), batch, ALL, seen(batch.rays), perceptual=same)
 
 
+def along(
+    field: Field, truth: Articulation, rays: Rays, *, inverse_beta: float, samples: int
+) -> RayColors:
+    """What the rays of a batch see."""
+    ways = rays.origin_BR3, rays.direction_BR3, rays.state_BR
+    return render_along(field, truth, *ways, inverse_beta=inverse_beta, samples=samples)
+
+
 def cabinets(*, rays: int) -> Batch:
     """Two cabinets in noise, and what rays through them see."""
     batch = drawn_batch(19, rays=rays, dtype=torch.float32)
     truth = cabinet(slots=SLOTS, batch=2)
     assert batch.rays is not None
-    shown = render(box_field(truth), truth, batch.rays, inverse_beta=50.0, samples=16)
+    shown = along(box_field(truth), truth, batch.rays, inverse_beta=50.0, samples=16)
     targets = dataclasses.replace(
         batch.rays,
         part_rgb_BPR3=shown.part_rgb_BPR3,
@@ -384,7 +393,7 @@ def test_a_few_steps_lower_every_term(direction: Direction) -> None:
     history: list[dict[str, float]] = []
     for _ in range(80):
         said = art(batch.images, batch.truth.valid_BP)
-        rendered = render(said.field(), batch.truth, rays, inverse_beta=10.0, samples=8)
+        rendered = along(said.field(), batch.truth, rays, inverse_beta=10.0, samples=8)
         table = losses(said, batch, ALL, rendered)
         optimizer.zero_grad()
         table["total"].backward()
