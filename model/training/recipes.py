@@ -121,10 +121,13 @@ def monocular(size: Size) -> Config:
 
 
 def static_pretrain(size: Size) -> Config:
-    """Shapes and boxes of parts at rest, before anything moves."""
+    """Shapes and boxes of parts at rest, before anything moves.
+
+    Rays follow the true joints to the end: nothing teaches the predicted ones.
+    """
     config = multiview(size)
     data = dataclasses.replace(config.data, motion="rest")
-    train = dataclasses.replace(config.train, rendered=0.0)
+    train = dataclasses.replace(config.train, rendered=0.0, forced=1.0)
     return dataclasses.replace(
         config, recipe="static_pretrain", data=data, weights=STATIC, train=train
     )

@@ -3,6 +3,7 @@
 import pytest
 
 from model.training.recipes import RECIPES, articulation_only
+from model.training.schedule import moment_at
 
 SIZES = ("nano", "s", "paper")
 
@@ -39,6 +40,13 @@ def test_static_training_renders_and_learns_boxes_alone(size: str) -> None:
     assert min(weights.center, weights.size, weights.part_rgb, weights.part_mask) > 0.0
     assert config.data.motion == "rest"
     assert config.train.rendered == 0.0
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_static_training_never_renders_through_joints_that_nothing_teaches(size: str) -> None:
+    """It left the true joints at half of the run, and parts went as untaught heads had them go."""
+    train = RECIPES["static_pretrain"](size).train  # type: ignore[arg-type]
+    assert all(moment_at(train, step).forced for step in (0, train.steps // 2, train.steps - 1))
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -33,6 +33,7 @@ def test_pretraining_takes_its_share_of_the_updates() -> None:
     cell = COURSE.cell(ARMS["pretrained"], LIBRARY, seed=0)
     assert [stage.recipe for stage in cell.stages] == ["static_pretrain", "multiview"]
     assert [stage.train.steps for stage in cell.stages] == [100, 300]
+    assert cell.stages[0].train.forced == 1.0  # Nothing teaches joints while parts rest.
     assert cell.steps == 400
 
 
