@@ -5,7 +5,7 @@ B objects, T states, V views, P part slots, H W pixels, digits a length.
 """
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -73,6 +73,12 @@ def held_out_config(config: DataConfig, *, extra: bool) -> DataConfig:
     )
 
 
+def spread(count: int, length: int) -> Sequence[int]:
+    """At most `count` of `length` positions, evenly: sources hold category after category."""
+    total = min(count, length)
+    return [k * length // total for k in range(total)]
+
+
 def held_out(
     source: Source[Any], config: DataConfig, *, count: int, seed: int = 0
 ) -> Iterator[HeldOut]:
@@ -85,8 +91,7 @@ def held_out(
     """
     extra = isinstance(source, SoupSource)
     wide = held_out_config(config, extra=extra)
-    total = min(count, len(source))
-    for position in (k * len(source) // total for k in range(total)):
+    for position in spread(count, len(source)):
         stream = Stream(seed, "evaluation", "held_out", position)
         batch = source.batch([source.plan(position, wide, stream)], wide, CPU)
         soup = source.library[source.positions[position]] if extra else None  # type: ignore[attr-defined]

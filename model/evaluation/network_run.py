@@ -20,7 +20,7 @@ from model.data.library import read_library
 from model.data.shards import ShardSource
 from model.data.soup_source import SoupSource
 from model.evaluation.baselines import NearestNeighbor, mean_layouts
-from model.evaluation.held_out import CPU, HeldOut, held_out, held_out_config
+from model.evaluation.held_out import CPU, HeldOut, held_out, held_out_config, spread
 from model.evaluation.lpips import load_lpips
 from model.evaluation.pictures import strip
 from model.evaluation.predictions import layout_of
@@ -201,7 +201,7 @@ def shown_to(config: Config, asked: NetworkRun) -> DataConfig:
 def training_items(
     source: Source[Any], config: DataConfig, count: int
 ) -> Sequence[tuple[Any, Any]]:
-    """Layouts and batches of the training objects, one scene each."""
+    """Layouts and batches of at most `count` training objects, spread evenly, one scene each."""
     return list(_training_items(source, config, count))
 
 
@@ -209,9 +209,9 @@ def _training_items(
     source: Source[Any], config: DataConfig, count: int
 ) -> Iterator[tuple[Any, Any]]:
     narrow = held_out_config(config, extra=False)
-    total = min(count, len(source))
-    with progress("training objects", total) as advance:
-        for position in range(total):
+    positions = spread(count, len(source))
+    with progress("training objects", len(positions)) as advance:
+        for position in positions:
             stream = Stream(0, "evaluation", "training", position)
             batch = source.batch([source.plan(position, narrow, stream)], narrow, CPU)
             name, category = batch.asset_ids[0], batch.categories[0]

@@ -12,10 +12,11 @@ from artgen.core.stream import Stream
 from model.batch import Articulation
 from model.data.library import write_library
 from model.data.scene import drawn_scene
+from model.data.soup_source import SoupSource
 from model.data.truth import articulation as articulation_of
 from model.evaluation.cli import evaluate
 from model.evaluation.held_out import flips
-from model.evaluation.network_run import NetworkRun, shown_to
+from model.evaluation.network_run import NetworkRun, shown_to, training_items
 from model.evaluation.predictors import counted_from_first, with_more_states
 from model.network.art import Art
 from model.training.art_file import ModelCard, save_art
@@ -129,3 +130,10 @@ def test_a_network_that_counts_from_the_first_state_is_judged_there(place: Path)
     found = run(place, str(path), "first", *options)
     assert found["images.new_state.psnr"]["values"] == 2
     assert found["states.nearest.center"]["values"] == 1
+
+
+def test_baselines_learn_from_objects_of_all_categories() -> None:
+    """The first three objects are cabinets; three that are spread over all are not."""
+    source = SoupSource(library(), slots=6)
+    items = training_items(source, dataclasses.replace(CONFIG, batch=1), 3)
+    assert {layout.category for layout, _ in items} > {"cabinet"}
