@@ -1,4 +1,4 @@
-"""Tasks over processes: outcomes as they come, and a process that dies costs its own task alone."""
+"""Tasks over processes: outcomes as they come; one that dies or fails costs its own task alone."""
 
 import logging
 import multiprocessing
@@ -50,7 +50,8 @@ def run_in_processes(
         work: a function of a module; turns the expected faults of a task into its outcome.
         initializer: run once in each process with `initargs`.
         timeout_s: a process that works longer on one task is killed.
-        lost: the outcome of a task whose process died in every attempt, told the cause.
+        lost: the outcome of a task whose process died in every attempt, or that raised what `work`
+            did not expect, told the cause.
     """
     faults: Counter[T] = Counter()
     waiting, breaks = list(tasks), 0
@@ -70,13 +71,19 @@ def run_in_processes(
             for future in as_completed(futures):
                 task = futures[future]
                 try:
-                    yield future.result()
-                    continue
+                    outcome = future.result()
                 except (ProcessExpired, TimeoutError) as error:
                     faults[task] += 1
                     cause = str(error)
                 except BrokenProcessPool as error:  # A process died before it said what it took.
                     cause = str(error)
+                except Exception as error:  # What `work` did not foresee must not end the run.
+                    log.warning("%s: internal fault", task.asset_id, exc_info=error)
+                    yield lost(task, f"internal fault: {error!r}")
+                    continue
+                else:
+                    yield outcome
+                    continue
                 log.warning("%s: %s", task.asset_id, cause)
                 if faults[task] < ATTEMPTS and breaks < BREAKS:
                     again.append(task)

@@ -90,12 +90,25 @@ def build_library(
 
 
 def embedded_library(folder: Path, *, workers: int, show: Show, sharp: bool = False) -> Path:
-    """The embedded library in a folder, built there unless it is."""
+    """The embedded library in a folder, built there unless it is.
+
+    Raises:
+        ArtgenError: one of its sources could not be made; it is never used in part.
+    """
     made = [plain(one) for one in embedded(EMBEDDED)]
     name = content_hash([EDITION, *made])[:12] + ("-sharp" * sharp)
     home = folder / f"library-{name}"
-    if not (home / "library.json").exists():
-        build_library(home, made=embedded(), bundles=(), workers=workers, show=show, sharp=sharp)
+    if (home / "library.json").exists():
+        return home
+    _, faults = build_library(
+        home, made=embedded(), bundles=(), workers=workers, show=show, sharp=sharp
+    )
+    if faults:
+        (home / "library.json").unlink()
+        raise ArtgenError(
+            f"{home}: {len(faults)} sources of the embedded library are missing "
+            f"({faults[0].task}: {faults[0].fault}); run again to make them"
+        )
     return home
 
 
@@ -128,9 +141,9 @@ def _task_in_worker(task: SourceTask) -> Taken:
         raise RuntimeError("the pool did not open its tools")
     try:
         source = take_apart(task, _tools)
+        write_source(task.folder, source)
     except ArtgenError as error:
         return Taken(task=task.asset_id, fault=str(error))
-    write_source(task.folder, source)
     return Taken(task=task.asset_id, id=source.id)
 
 

@@ -153,7 +153,8 @@ def _task_in_worker(task: AssembleTask) -> Outcome:
 def run_tasks(
     folder: RunFolder, tasks: Sequence[AssembleTask], *, workers: int
 ) -> Iterator[Outcome]:
-    """Outcomes as they come; a process that dies fails its object alone, after a second try."""
+    """Outcomes as they come; a process that dies fails its object alone, after a second try, and so
+    does an unforeseen fault."""
     return run_in_processes(
         tasks,
         _task_in_worker,
@@ -161,5 +162,5 @@ def run_tasks(
         initializer=_open_bench,
         initargs=(folder, tasks[0].library, tasks[0].what),
         timeout_s=TIMEOUT_S,
-        lost=lambda task, cause: Outcome(asset_id=task.asset_id, status="failed", message=cause),
+        lost=lambda task, cause: _set_aside(task, folder, cause),
     )

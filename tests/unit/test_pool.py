@@ -1,4 +1,4 @@
-"""A process that dies costs its own task alone, after a second try."""
+"""A process that dies costs its own task alone, after a second try; so does a fault, at once."""
 
 import os
 import signal
@@ -27,6 +27,8 @@ def work(task: Sum) -> str:
         os.kill(os.getpid(), signal.SIGKILL)
     if task.deed == "hang":
         time.sleep(60)
+    if task.deed == "raise":
+        raise RuntimeError("from a library")
     return f"{task.asset_id} {os.environ['STARTED']}"
 
 
@@ -45,3 +47,21 @@ def test_every_task_has_one_outcome_whatever_its_neighbours_do(tmp_path: Path) -
     assert sorted(outcomes) == ["0 1", "1 lost", "2 1", "3 1", "4 lost", "5 1"]
     assert len((tmp_path / "1").read_text()) >= ATTEMPTS
     assert len((tmp_path / "4").read_text()) == ATTEMPTS
+
+
+def test_a_fault_that_no_one_foresaw_costs_its_own_task_alone(tmp_path: Path) -> None:
+    """It once ended the run: the outcomes of all that came after were lost."""
+    deeds = ["raise", "work", "work", "raise"]
+    tasks = [Sum(str(k), deed, str(tmp_path)) for k, deed in enumerate(deeds)]
+    outcomes = run_in_processes(
+        tasks,
+        work,
+        workers=1,
+        initializer=_nothing,
+        initargs=(),
+        timeout_s=20.0,
+        lost=lambda task, cause: f"{task.asset_id} {cause}",
+    )
+    told = "internal fault: RuntimeError('from a library')"
+    assert sorted(outcomes) == [f"0 {told}", "1 1", "2 1", f"3 {told}"]
+    assert (tmp_path / "0").read_text() == "x"  # The same again would come of a second try.
