@@ -1,5 +1,8 @@
 """`artgen export`: bundles in layouts that others read."""
 
+import itertools
+import json
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,11 +13,11 @@ from rich.console import Console
 
 from artgen.assembly.finished import finished_object
 from artgen.assembly.licence import licence_of
-from artgen.core.errors import ArtgenError, UsageError
-from artgen.core.jsonio import fill_folder_atomically
+from artgen.core.errors import ArtgenError, ExportError, UsageError
+from artgen.core.jsonio import file_hash, fill_folder_atomically
 from artgen.export.glb_content import read_glb
 from artgen.export.layout import GLB, MANIFEST
-from artgen.export.partnet.write import write_partnet
+from artgen.export.partnet.write import NOTE, write_partnet
 from artgen.ingest.cli import dispatched
 from artgen.progress import progress
 
@@ -23,6 +26,8 @@ usage: artgen export partnet BUNDLE... --out DIR   folders of PartNet-Mobility's
 
 A BUNDLE is a folder that `artgen generate`, `ingest` or `assemble` wrote, or a folder of many.
 """
+NAME = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]{0,99}(?<!\.partial)")
+"""Asset ids that are names of folders: no way up, no separator, nothing that is in the making."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +41,8 @@ class ExportPartnet:
     paths: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
     """Bundles, or folders that hold some."""
     out: Path = Path("out/partnet")
-    """Receives one folder an object; none that is there is written over."""
+    """Receives one folder an object, named by its asset id; none that is there is written over.
+    Bundles of one id that differ are told apart: cabinet_000000, cabinet_000000_2."""
     doubled: bool = False
     """Write every face twice, once turned around, as most of the data set does."""
 
@@ -55,9 +61,9 @@ def partnet(argv: Sequence[str]) -> int:
     with progress("exports", len(bundles)) as advance:
         for bundle in bundles:
             try:
-                written = export_bundle(bundle, command.out, doubled=command.doubled)
-                advance(f"{bundle.name} {'written' if written else 'kept'}")
-            except ArtgenError as error:
+                home, new = export_bundle(bundle, command.out, doubled=command.doubled)
+                advance(f"{home.name} {'written' if new else 'kept'}")
+            except (ArtgenError, OSError) as error:
                 failed.append(f"{bundle}: {error}")
                 advance(f"{bundle.name} failed")
     console = Console(highlight=False, soft_wrap=True)
@@ -84,20 +90,53 @@ def found_bundles(paths: Sequence[Path]) -> list[Path]:
     return list(found)
 
 
-def export_bundle(bundle: Path, out: Path, *, doubled: bool) -> bool:
-    """Write one bundle's folder below `out`, whole or not at all; False where it is there already.
+def export_bundle(bundle: Path, out: Path, *, doubled: bool) -> tuple[Path, bool]:
+    """Write one bundle's folder below `out`, whole or not at all.
+
+    Returns:
+        The folder, and whether it is new: what was written from the same bundle is kept.
 
     Raises:
-        ArtgenError: the bundle is damaged.
+        ExportError: the bundle is damaged, or its asset id is no name of a folder.
     """
     obj = finished_object(bundle)
-    home = out / obj.asset_id
-    if home.exists():
-        return False
-    content = read_glb(bundle / GLB)
-    images = {name: own["color"] for name, own in content.images.items() if "color" in own}
-    terms = licence_of(obj.provenance)
-    fill_folder_atomically(
-        home, lambda partial: write_partnet(obj, partial, images, doubled=doubled, licence=terms)
+    digest = file_hash(bundle / MANIFEST)
+    home, new = _home(out, obj.asset_id, digest)
+    if new:
+        content = read_glb(bundle / GLB)
+        images = {name: own["color"] for name, own in content.images.items() if "color" in own}
+        terms = licence_of(obj.provenance)
+        fill_folder_atomically(
+            home,
+            lambda partial: write_partnet(
+                obj, partial, images, doubled=doubled, licence=terms, digest=digest
+            ),
+        )
+    return home, new
+
+
+def _home(out: Path, asset_id: object, digest: str) -> tuple[Path, bool]:
+    """The folder of a bundle whose manifest has this digest, and whether it is yet to be made;
+    where another bundle took the name, the first number that is free."""
+    if not isinstance(asset_id, str) or NAME.fullmatch(asset_id) is None:
+        raise ExportError(
+            f"{MANIFEST} has asset_id {asset_id!r}, which is no name of a folder; use up to 100 "
+            "letters, digits, '_', '-' and '.', not first"
+        )
+    names = itertools.chain([asset_id], (f"{asset_id}_{number}" for number in itertools.count(2)))
+    home = next(
+        place
+        for place in (out / name for name in names)
+        if not place.exists() or _digest_of(place) == digest
     )
-    return True
+    return home, not home.exists()
+
+
+def _digest_of(home: Path) -> str | None:
+    """Of the bundle that a folder was written from; None where the folder does not say."""
+    try:
+        stated = json.loads((home / NOTE).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    digest = stated.get("digest") if isinstance(stated, dict) else None
+    return digest if isinstance(digest, str) else None

@@ -52,6 +52,7 @@ def write_partnet(
     *,
     doubled: bool = False,
     licence: object = None,
+    digest: str | None = None,
 ) -> None:
     """Fill `folder`, which exists.
 
@@ -62,6 +63,7 @@ def write_partnet(
         images: surface name to the content of a PNG file: its color over one tile.
         doubled: write every face a second time, turned around.
         licence: terms of the object, as `artgen.json` states them.
+        digest: hash of the manifest of the bundle that it is written from, if any.
     """
     unit, mesh_from_object = normalization(obj)
     tree = part_tree(obj)
@@ -73,7 +75,7 @@ def write_partnet(
     _json(folder / "meta.json", _meta(obj))
     _json(folder / "bounding_box.json", _box(obj, mesh_from_object))
     _text(folder / "semantics.txt", semantics(obj, tree))
-    _json(folder / NOTE, _note(obj, unit, mesh_from_object, licence))
+    _json(folder / NOTE, _note(obj, unit, mesh_from_object, licence, digest))
 
 
 def normalization(obj: ArticulatedObject) -> tuple[float, Floats]:
@@ -214,7 +216,11 @@ def _box(obj: ArticulatedObject, mesh_from_object: Floats) -> dict[str, list[flo
 
 
 def _note(
-    obj: ArticulatedObject, unit: float, mesh_from_object: Floats, licence: object
+    obj: ArticulatedObject,
+    unit: float,
+    mesh_from_object: Floats,
+    licence: object,
+    digest: str | None,
 ) -> dict[str, Any]:
     """Scale, origin and what was left out."""
     lost = {
@@ -232,6 +238,7 @@ def _note(
         "mesh_from_object": mesh_from_object,
         "left_out": {key: names for key, names in lost.items() if names},
         "licence": licence,
+        "digest": digest,
         **kept,
     }
 
