@@ -10,7 +10,8 @@ import numpy as np
 
 from artgen.core.errors import ModelError
 from artgen.core.mesh import Floats
-from model.reconstruct.cameras import Rig, Shot, rigid_checked, state_of
+from model.reconstruct.cameras import Rig, Shot
+from model.reconstruct.stated import lens, quoted, rigid_checked, state_of
 
 PINHOLES = {
     "SIMPLE_PINHOLE": ("f", "cx", "cy"),
@@ -73,7 +74,10 @@ def _camera(path: Path, words: list[str]) -> Floats:
         )
     x = named.get("fx", named.get("f", 0.0))
     y = named.get("fy", x)
-    return np.array([[x, 0.0, named["cx"]], [0.0, y, named["cy"]], [0.0, 0.0, 1.0]])
+    matrix = np.array([[x, 0.0, named["cx"]], [0.0, y, named["cy"]], [0.0, 0.0, 1.0]])
+    if not np.isfinite(matrix).all():
+        raise ModelError(f"{path}: camera line {quoted(' '.join(words))} holds no finite numbers")
+    return lens(path, f"camera {words[0]}", matrix)
 
 
 def _shot(path: Path, words: list[str], cameras: dict[str, Floats]) -> Shot:
@@ -84,11 +88,15 @@ def _shot(path: Path, words: list[str], cameras: dict[str, Floats]) -> Shot:
         raise ModelError(f"{path}: image line {' '.join(words)!r} is damaged") from error
     if camera not in cameras:
         raise ModelError(f"{path}: {image} names camera {camera}, which cameras.txt lacks")
+    if not 0.5 < float(np.linalg.norm(turn)) < 2.0:
+        raise ModelError(
+            f"{path}: the quaternion of {image} is {turn.tolist()}, expected one of length 1"
+        )
     pose = np.eye(4)
     pose[:3, :3], pose[:3, 3] = _rotation(turn), place
     return Shot(
         image=image,
-        state=state_of(image, None),
+        state=state_of(path, image, None),
         intrinsics=cameras[camera],
         camera_from_world=rigid_checked(path, image, pose),
     )
@@ -96,7 +104,7 @@ def _shot(path: Path, words: list[str], cameras: dict[str, Floats]) -> Shot:
 
 def _rotation(quaternion: Floats) -> Floats:
     """(3, 3) of a quaternion w, x, y, z of any length but zero."""
-    w, x, y, z = quaternion / max(float(np.linalg.norm(quaternion)), 1e-12)
+    w, x, y, z = quaternion / float(np.linalg.norm(quaternion))
     return np.array(
         [
             [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],

@@ -83,8 +83,11 @@ def foreground(rgba: Bytes, path: Path, *, mask: Path | None, segmenter: Segment
 
 
 def _filled(rgba: Bytes, path: Path) -> Bytes:
-    if not (rgba[..., 3] > 0).any():
-        raise ModelError(f"{path}: no foreground: the mask is empty; check it, or drop this image")
+    if not (rgba[..., 3] >= HALF).any():
+        raise ModelError(
+            f"{path}: no foreground: the mask is empty, no pixel is at least half opaque; check "
+            "it, or drop this image"
+        )
     return rgba
 
 

@@ -6,7 +6,7 @@ ours: `state` (or `time`) of a frame.
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,13 @@ from PIL import Image
 from artgen.core.errors import ModelError
 from artgen.core.mesh import Floats
 from artgen.core.transform import inverted
-from model.reconstruct.cameras import (
-    OPENCV_FROM_OPENGL,
-    Rig,
-    Shot,
+from model.reconstruct.cameras import OPENCV_FROM_OPENGL, Rig, Shot
+from model.reconstruct.stated import (
+    check_keys,
+    file_name,
+    lens,
+    listed,
+    number,
     numbers,
     positive,
     rigid_checked,
@@ -34,41 +37,67 @@ def rig_of_transforms(path: Path, stated: Mapping[str, Any], images: Path) -> Ri
     """The rig of a `transforms.json`; its world is z up, as Blender's.
 
     Raises:
-        ModelError: a key is missing or an image has distortion.
+        ModelError: a key is missing or its value is not what it must be, an image has distortion,
+            or only some frames have a time.
     """
-    frames = stated.get("frames")
-    if not isinstance(frames, list) or not frames:
-        raise ModelError(f"{path}: has no frames; expected a list of file_path, transform_matrix")
-    times = sorted({float(f["time"]) for f in frames if isinstance(f, dict) and "time" in f})
-    shots = tuple(_shot(path, stated, frame, images, times) for frame in frames)
+    frames = listed(path, "frames", stated["frames"])
+    for k, frame in enumerate(frames):
+        if not isinstance(frame, Mapping):
+            check_keys(path, frame, NEEDED, (), where=f"frames[{k}]")
+    times = _times(path, frames)
+    shots = tuple(
+        _shot(path, stated, frame, f"frames[{k}]", images, times) for k, frame in enumerate(frames)
+    )
     return Rig(file=path, shots=shots)
+
+
+NEEDED = ("file_path", "transform_matrix")
+
+
+def _times(path: Path, frames: Sequence[Mapping[str, Any]]) -> list[float]:
+    """All different times, ascending; each is a state."""
+    timed = [k for k, frame in enumerate(frames) if "time" in frame]
+    if 0 < len(timed) < len(frames):
+        first = next(k for k, frame in enumerate(frames) if "time" not in frame)
+        raise ModelError(
+            f"{path}: {len(timed)} of {len(frames)} frames have a time, frames[{first}] has none; "
+            "give each a time, or none, and each a state instead"
+        )
+    return sorted({number(path, f"frames[{k}].time", frames[k]["time"]) for k in timed})
 
 
 def _shot(
     path: Path,
     shared: Mapping[str, Any],
     frame: Mapping[str, Any],
+    where: str,
     images: Path,
     times: list[float],
 ) -> Shot:
-    both = {**shared, **frame}
-    for key in ("file_path", "transform_matrix"):
+    for key in NEEDED:
         if key not in frame:
-            raise ModelError(f"{path}: a frame has no {key!r}")
-    image = _found(images, str(frame["file_path"]))
-    if bent := [key for key in DISTORTION if abs(float(both.get(key, 0.0))) > 1e-9]:
+            raise ModelError(f"{path}: {where} has no {key!r}; needed: {', '.join(NEEDED)}")
+    both = {**shared, **frame}
+    image = _found(images, file_name(path, f"{where}.file_path", frame["file_path"]))
+    bent = [
+        key
+        for key in DISTORTION
+        if abs(number(path, f"{key} of {image}", both.get(key, 0.0))) > 1e-9
+    ]
+    if bent:
         raise ModelError(
             f"{path}: {image} has lens distortion ({', '.join(bent)}); undistort the images first"
         )
-    pose = numbers(path, f"transform_matrix of {image}", frame["transform_matrix"], (4, 4))
+    pose = numbers(path, f"{where}.transform_matrix", frame["transform_matrix"], (4, 4))
     world_from_camera = rigid_checked(path, image, pose) @ OPENCV_FROM_OPENGL
-    state = times.index(float(frame["time"])) if "time" in frame else frame.get("state")
+    state = times.index(float(frame["time"])) if times else frame.get("state")
+    mask = frame.get("mask_path")
     return Shot(
         image=image,
-        state=state_of(image, state),
-        intrinsics=_intrinsics(path, both, images / image),
+        state=state_of(path, image, state),
+        intrinsics=lens(path, f"the lens of {image}", _intrinsics(path, both, images, image)),
         camera_from_world=inverted(world_from_camera),
-        mask=frame.get("mask_path"),
+        mask=None if mask is None else file_name(path, f"{where}.mask_path", mask),
     )
 
 
@@ -81,20 +110,35 @@ def _found(images: Path, name: str) -> str:
     return clean
 
 
-def _intrinsics(path: Path, both: Mapping[str, Any], image: Path) -> Floats:
-    width, height = both.get("w"), both.get("h")
-    if width is None or height is None:
-        try:
-            with Image.open(image) as picture:
-                width, height = picture.size
-        except OSError as error:
-            raise ModelError(f"{path}: image {image} cannot be opened ({error})") from error
+def _intrinsics(path: Path, both: Mapping[str, Any], images: Path, image: str) -> Floats:
+    width, height = _size(path, both, images, image)
     if "fl_x" in both:
-        x = positive(path, "fl_x", both["fl_x"])
-        y = positive(path, "fl_y", both.get("fl_y", x))
+        x = positive(path, f"fl_x of {image}", both["fl_x"])
+        y = positive(path, f"fl_y of {image}", both.get("fl_y", x))
     elif "camera_angle_x" in both:
-        x = y = float(width) / 2.0 / math.tan(float(both["camera_angle_x"]) / 2.0)
+        angle = positive(path, f"camera_angle_x of {image}", both["camera_angle_x"])
+        if angle >= math.pi:
+            raise ModelError(
+                f"{path}: camera_angle_x of {image} is {angle:g}, expected radians, less than pi; "
+                "a degree is pi / 180"
+            )
+        x = y = width / 2.0 / math.tan(angle / 2.0)
     else:
-        raise ModelError(f"{path}: neither fl_x nor camera_angle_x is stated")
-    middle = float(both.get("cx", width / 2.0)), float(both.get("cy", height / 2.0))
+        raise ModelError(f"{path}: {image} has neither fl_x nor camera_angle_x; state one")
+    middle = [
+        number(path, f"{key} of {image}", both.get(key, side / 2.0))
+        for key, side in (("cx", width), ("cy", height))
+    ]
     return np.array([[x, 0.0, middle[0]], [0.0, y, middle[1]], [0.0, 0.0, 1.0]])
+
+
+def _size(path: Path, both: Mapping[str, Any], images: Path, image: str) -> tuple[float, float]:
+    """Width and height, px, as the file states them, or of the image."""
+    if "w" in both and "h" in both:
+        width = positive(path, f"w of {image}", both["w"])
+        return width, positive(path, f"h of {image}", both["h"])
+    try:
+        with Image.open(images / image) as picture:
+            return float(picture.width), float(picture.height)
+    except OSError as error:
+        raise ModelError(f"{path}: image {images / image} cannot be opened ({error})") from error

@@ -8,9 +8,10 @@ import numpy as np
 from artgen.core.errors import ModelError
 from artgen.core.mesh import Floats
 from artgen.core.transform import inverted
-from model.reconstruct.cameras import SCHEMA, Rig, read_json, rig_of_own_json
+from model.reconstruct.cameras import SCHEMA, Rig, rig_of_own_json
 from model.reconstruct.colmap import rig_of_colmap
 from model.reconstruct.nerf import rig_of_transforms
+from model.reconstruct.stated import read_json
 
 
 def read_rig(cameras: Path, images: Path) -> Rig:

@@ -137,15 +137,130 @@ BAD: Mapping[str, tuple[Mapping[str, Any], str]] = {
     "schema": ({"schema": "other/1"}, "schema 'other/1'"),
     "key": ({"centre": [0, 0, 0]}, "unknown key 'centre' .did you mean 'center'"),
     "radius": ({"radius": -1}, "radius is -1"),
+    "radius in quotes": ({"radius": "0.5"}, "radius is no finite number, but '0.5'"),
+    "unit": ({"meters_per_unit": None}, "meters_per_unit is no finite number, but None"),
     "center": ({"center": [0, 0]}, r"center is no \(3,\) array"),
+    "ragged center": ({"center": [0, [1], 2]}, r"center is no \(3,\) array"),
+    "views": ({"views": 5}, "views is 5, expected a list"),
+    "no views": ({"views": []}, r"views is \[\], expected a list"),
+    "a view": ({"views": ["a.png"]}, r"views\[0\] is 'a.png', expected a JSON object with image"),
 }
 
 
-@pytest.mark.parametrize("name", BAD)
-def test_a_wrong_key_is_told(name: str, tmp_path: Path, shots: list[Camera]) -> None:
-    extra, told = BAD[name]
-    with pytest.raises(ModelError, match=told):
+@pytest.mark.parametrize("case", BAD)
+def test_a_wrong_key_is_told(case: str, tmp_path: Path, shots: list[Camera]) -> None:
+    extra, told = BAD[case]
+    with pytest.raises(ModelError, match=rf"cameras\.json.*{told}"):
         read_rig(own(tmp_path, shots, **extra), tmp_path)
+
+
+PINHOLE = [[60.0, 0.0, 32.0], [0.0, 60.0, 24.0], [0.0, 0.0, 1.0]]
+BAD_VIEW: Mapping[str, tuple[Mapping[str, Any], str]] = {
+    "image": ({"image": 7}, r"views\[1\].image is 7, expected the name of a file"),
+    "mask": ({"mask": 5}, r"views\[1\].mask is 5, expected the name of a file"),
+    "no lens": (
+        {"intrinsics": [[0.0] * 3] * 3},
+        r"views\[1\].intrinsics .* no pinhole; .* above 0",
+    ),
+    "last row": ({"intrinsics": [*PINHOLE[:2], [0, 0, 0]]}, "no pinhole"),
+    "mirror": ({"intrinsics": [[-60, 0, 32], *PINHOLE[1:]]}, "no pinhole"),
+    "words": ({"intrinsics": [["60", "0", "32"], *PINHOLE[1:]]}, r"no \(3, 3\) array"),
+    "convention": ({"convention": "OpenGL"}, "convention is 'OpenGL' .did you mean 'opengl'"),
+    "no convention": ({"convention": None}, "convention is None, expected one of opencv, opengl"),
+    "state in quotes": ({"state": "1"}, "the state of state_1/1.png is '1', expected a whole"),
+    "half a state": ({"state": 0.5}, "is 0.5, expected a whole number"),
+    "a true state": ({"state": True}, "is True, expected a whole number"),
+    "an endless state": ({"state": math.inf}, "is inf, expected a whole number"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_VIEW)
+def test_a_wrong_value_of_a_view_is_told(case: str, tmp_path: Path, shots: list[Camera]) -> None:
+    """Some were read as something else without a word, others ended in a traceback."""
+    path = own(tmp_path, shots)
+    stated = json.loads(path.read_text())
+    changes, told = BAD_VIEW[case]
+    stated["views"][1].update(changes)
+    with pytest.raises(ModelError, match=rf"cameras\.json.*{told}"):
+        read_rig(written(path, stated), tmp_path)
+
+
+def test_a_view_may_have_opengl_axes_and_a_state_of_its_own(
+    tmp_path: Path, shots: list[Camera]
+) -> None:
+    path = own(tmp_path, shots)
+    stated = json.loads(path.read_text())
+    pose = OPENCV_FROM_OPENGL @ shots[1].camera_from_world
+    changes = {"convention": "opengl", "state": 3.0, "camera_from_world": pose.tolist()}
+    stated["views"][1].update(changes)
+    found = read_rig(written(path, stated), tmp_path).shots[1]
+    assert found.state == 3
+    # The rotation is made exact: a few roundings.
+    assert np.abs(found.camera_from_world - shots[1].camera_from_world).max() <= 1e-14
+
+
+BAD_TRANSFORMS: Mapping[str, tuple[Mapping[str, Any], str]] = {
+    "no frames": ({"frames": {}}, "frames is {}, expected a list"),
+    "angle as a word": ({"camera_angle_x": "x"}, "camera_angle_x of state_0/0.png is no finite"),
+    "angle of zero": ({"camera_angle_x": 0}, "camera_angle_x of state_0/0.png is 0, expected more"),
+    "degrees": ({"camera_angle_x": 40.0}, "is 40, expected radians, less than pi"),
+    "distortion": ({"k1": None}, "k1 of state_0/0.png is no finite number, but None"),
+    "width": ({"w": "64", "h": 48}, "w of state_0/0.png is no finite number, but '64'"),
+    "middle": ({"cx": "32"}, "cx of state_0/0.png is no finite number"),
+    "focal": ({"fl_x": -3.0}, "fl_x of state_0/0.png is -3, expected more than 0"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_TRANSFORMS)
+def test_a_wrong_value_of_transforms_is_told(
+    case: str, tmp_path: Path, shots: list[Camera]
+) -> None:
+    path = transforms(tmp_path, shots)
+    changes, told = BAD_TRANSFORMS[case]
+    with pytest.raises(ModelError, match=rf"transforms\.json: .*{told}"):
+        read_rig(written(path, {**json.loads(path.read_text()), **changes}), tmp_path)
+
+
+BAD_FRAME: Mapping[str, tuple[Mapping[str, Any], str]] = {
+    "name": ({"file_path": 3}, r"frames\[1\].file_path is 3, expected the name of a file"),
+    "mask": ({"mask_path": 3}, r"frames\[1\].mask_path is 3, expected the name of a file"),
+    "pose": ({"transform_matrix": "x"}, r"frames\[1\].transform_matrix is no \(4, 4\) array"),
+    "some times": ({"time": 0.5}, r"1 of 3 frames have a time, frames\[0\] has none"),
+    "state": ({"state": "1"}, "the state of state_1/1.png is '1', expected a whole number"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_FRAME)
+def test_a_wrong_value_of_a_frame_is_told(case: str, tmp_path: Path, shots: list[Camera]) -> None:
+    path = transforms(tmp_path, shots)
+    stated = json.loads(path.read_text())
+    changes, told = BAD_FRAME[case]
+    stated["frames"][1].update(changes)
+    with pytest.raises(ModelError, match=rf"transforms\.json: .*{told}"):
+        read_rig(written(path, stated), tmp_path)
+
+
+def test_frames_that_are_no_objects_are_told(tmp_path: Path, shots: list[Camera]) -> None:
+    path = transforms(tmp_path, shots)
+    stated = json.loads(path.read_text())
+    stated["frames"][2] = "state_0/2.png"
+    with pytest.raises(ModelError, match=r"frames\[2\] is 'state_0/2.png', expected a JSON object"):
+        read_rig(written(path, stated), tmp_path)
+    stated["frames"][2] = {"file_path": "state_0/2.png"}
+    with pytest.raises(ModelError, match=r"frames\[2\] has no 'transform_matrix'"):
+        read_rig(written(path, stated), tmp_path)
+
+
+def test_times_are_states(tmp_path: Path, shots: list[Camera]) -> None:
+    path = transforms(tmp_path, shots)
+    stated = json.loads(path.read_text())
+    for frame, time in zip(stated["frames"], (0.7, 0.1, 0.7), strict=True):
+        frame["time"] = time
+    rig = read_rig(written(path, stated), tmp_path)
+    assert [shot.state for shot in rig.shots] == [1, 0, 1]
+    stated["frames"][1]["time"] = "later"
+    with pytest.raises(ModelError, match=r"frames\[1\].time is no finite number, but 'later'"):
+        read_rig(written(path, stated), tmp_path)
 
 
 def test_a_pose_that_scales_or_mirrors_is_refused(tmp_path: Path, shots: list[Camera]) -> None:
@@ -175,3 +290,23 @@ def test_a_file_that_is_no_json_is_told(tmp_path: Path) -> None:
     path.write_text("{")
     with pytest.raises(ModelError, match="cannot be read as cameras"):
         read_rig(path, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("camera", "pose", "told"),
+    [
+        ("64 48 0 32 24", "1 0 0 0 0 0 3", "camera 1 is .* no pinhole"),
+        ("64 48 nan 32 24", "1 0 0 0 0 0 3", "holds no finite numbers"),
+        ("64 48 60 32 24", "0 0 0 0 0 0 3", "quaternion of a.png is .* expected one of length 1"),
+        ("64 48 60 32 24", "nan 0 0 0 0 0 3", "quaternion of a.png"),
+        ("64 48 60 32 24", "1 0 0 0 0 0 nan", "the pose of a.png"),
+    ],
+)
+def test_damaged_numbers_of_colmap_are_told(
+    camera: str, pose: str, told: str, tmp_path: Path
+) -> None:
+    """A quaternion of zeros counted as no turn at all."""
+    (tmp_path / "cameras.txt").write_text(f"1 SIMPLE_PINHOLE {camera}\n")
+    (tmp_path / "images.txt").write_text(f"1 {pose} 1 a.png\n\n")
+    with pytest.raises(ModelError, match=told):
+        read_rig(tmp_path, tmp_path)

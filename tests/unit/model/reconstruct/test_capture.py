@@ -67,6 +67,14 @@ def test_an_empty_mask_is_told(folder: Path) -> None:
         captured(folder)
 
 
+def test_a_foreground_that_is_nearly_transparent_is_told(folder: Path) -> None:
+    """The hull looks at what is half opaque, and had nothing to look at."""
+    faint = np.array([1, 1, 1, 0], np.uint8), np.array([0, 0, 0, 100], np.uint8)
+    repainted(folder / "state_0/view_1.png", lambda pixels: pixels * faint[0] + faint[1])
+    with pytest.raises(ModelError, match=r"view_1.png: no foreground: .* at least half opaque"):
+        captured(folder)
+
+
 def test_unequal_numbers_of_views_are_told(folder: Path) -> None:
     path = folder / "cameras.json"
     stated = json.loads(path.read_text())
