@@ -6,7 +6,8 @@ whole or not at all.
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -38,24 +39,41 @@ def read_tensors(path: Path, *, schema: str) -> tuple[dict[str, Tensor], dict[st
     Raises:
         ModelError: no such file, another kind of file or schema, truncated, or changed bytes.
     """
-    if not path.is_file():
-        raise ModelError(f"{path}: no such file; expected a checkpoint of schema {schema!r}")
-    try:
-        with safe_open(path, framework="pt") as opened:
-            header = json.loads((opened.metadata() or {}).get(KEY, "{}"))
-            _check_schema(path, header.get("schema"), schema)
-            tensors = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
-    except (SafetensorError, OSError) as error:
-        raise ModelError(
-            f"{path}: not a whole safetensors file of {path.stat().st_size} bytes ({error}); it is "
-            "truncated or of another kind; copy it again, or delete it and use an older one"
-        ) from error
+    with _opened(path) as (opened, header):
+        _check_schema(path, header.get("schema"), schema)
+        tensors = {name: opened.get_tensor(name) for name in opened.keys()}  # noqa: SIM118
     if header.get("digest") != _digest(tensors):
         raise ModelError(
             f"{path}: the weights differ from the digest in the header; the file was damaged or "
             "edited; copy it again, or delete it and use an older one"
         )
     return tensors, header["meaning"]
+
+
+def read_schema(path: Path) -> str | None:
+    """The schema that a file states; None where it states none.
+
+    Raises:
+        ModelError: no such file, another kind of file, or truncated.
+    """
+    with _opened(path) as (_, header):
+        stated: str | None = header.get("schema")
+    return stated
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[tuple[Any, dict[str, Any]]]:
+    """The open file and its header."""
+    if not path.is_file():
+        raise ModelError(f"{path}: no such file; expected one that `artgen train` wrote")
+    try:
+        with safe_open(path, framework="pt") as opened:
+            yield opened, json.loads((opened.metadata() or {}).get(KEY, "{}"))
+    except (SafetensorError, OSError) as error:
+        raise ModelError(
+            f"{path}: not a whole safetensors file of {path.stat().st_size} bytes ({error}); it is "
+            "truncated or of another kind; copy it again, or delete it and use an older one"
+        ) from error
 
 
 def _check_schema(path: Path, found: str | None, expected: str) -> None:

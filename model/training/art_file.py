@@ -1,10 +1,13 @@
-"""A trained network in one file, to ship: weights, settings and model card."""
+"""A trained network in one file, to ship: weights, settings and model card.
+
+The checkpoints of a training run are read as well: as the network of their averaged weights.
+"""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import torch
 from torch import Tensor
@@ -12,8 +15,9 @@ from torch import Tensor
 from artgen.core.errors import ModelError
 from model.config import Config
 from model.network.art import Art
-from model.tensor_file import read_tensors, write_tensors
-from model.training.checkpoint import check_weights
+from model.tensor_file import read_schema, read_tensors, write_tensors
+from model.training import checkpoint
+from model.training.checkpoint import check_weights, read_checkpoint
 from model.training.run_state import trained_state
 
 SCHEMA = "artgen-art/1"
@@ -78,6 +82,7 @@ def load_art(path: Path, *, encoder: str | None = None) -> tuple[Art, Config, Mo
     """The network of a file, for inference, in float32 on the CPU.
 
     Args:
+        path: of what `save_art` wrote, or of a checkpoint of `artgen train`.
         encoder: where a frozen encoder's weights lie on this machine, as `ImageTokens.encoder`;
             as the settings say if not given.
 
@@ -85,19 +90,71 @@ def load_art(path: Path, *, encoder: str | None = None) -> tuple[Art, Config, Mo
         ModelError: missing, truncated, damaged, of another schema or network; or the encoder's
             weights are not those that it was trained with.
     """
-    tensors, meaning = read_tensors(path, schema=SCHEMA)
-    config = Config.from_json(json.dumps(meaning["config"]))
+    stored = READERS.get(read_schema(path) or "", _shipped)(path)
+    config = Config.from_json(json.dumps(stored.config))
     if encoder is not None:
         images = replace(config.model.images, encoder=encoder)
         config = replace(config, model=replace(config.model, images=images))
     art = Art(config.model)
-    if art.encoder_identity != meaning["encoder"]:
+    if art.encoder_identity != stored.encoder:
         raise ModelError(
-            f"{path}: was trained with the encoder {meaning['encoder']!r}, found "
+            f"{path}: was trained with the encoder {stored.encoder!r}, found "
             f"{art.encoder_identity!r}; name the folder or file of those weights"
         )
-    load_weights(art, tensors, path)
-    return art.eval(), config, _card(path, meaning["card"])
+    load_weights(art, stored.weights, path)
+    return art.eval(), config, stored.card
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Stored:
+    """What a file holds; the configuration as JSON values."""
+
+    weights: Mapping[str, Tensor]
+    config: Mapping[str, Any]
+    encoder: str
+    card: ModelCard
+
+
+def _shipped(path: Path) -> _Stored:
+    tensors, meaning = read_tensors(path, schema=SCHEMA)
+    card = _card(path, meaning["card"])
+    return _Stored(weights=tensors, config=meaning["config"], encoder=meaning["encoder"], card=card)
+
+
+def _averaged(path: Path) -> _Stored:
+    """The moving average in a checkpoint, as far as training had come."""
+    found = read_checkpoint(path)
+    config = found.config.get("config")
+    if config is None:
+        raise ModelError(
+            f"{path}: a checkpoint that does not state its network; give one of `artgen train`"
+        )
+    limits = [f"Read from a checkpoint: {found.step} of {config['train']['steps']} updates."]
+    if found.note:
+        limits.append(f"Training stopped there: {found.note}.")
+    return _Stored(
+        weights=network_weights(found.average),
+        config=config,
+        encoder=found.config.get("encoder", ""),
+        card=ModelCard(
+            data={"seen": found.cursor},
+            steps=found.step,
+            hours=found.seconds / 3600.0,
+            limits=tuple(limits),
+        ),
+    )
+
+
+READERS: Mapping[str, Callable[[Path], _Stored]] = {
+    SCHEMA: _shipped,
+    checkpoint.SCHEMA: _averaged,
+}
+"""By the schema that a file states."""
+
+
+def network_weights(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Weights by the network's own names, out of those of what training minimizes."""
+    return {name.removeprefix("art."): tensor for name, tensor in state.items()}
 
 
 def stored_type(weights: Mapping[str, Tensor]) -> Stored:

@@ -55,7 +55,7 @@ class Train:
     """Show every object in this many scenes, kept in memory, instead of a new one each time: half
     the work on a CPU, less variety."""
     start: Path | None = None
-    """Begin with the weights of this file (art.safetensors of another run)."""
+    """Begin with the weights of this file: art.safetensors of another run, or a checkpoint."""
     set: tuple[str, ...] = ()
     """Settings to change, such as train.steps=2000, data.batch=16 or weights.motion=50;
     --settings lists all."""
@@ -115,7 +115,7 @@ class Ship:
     """
 
     network: Annotated[Path, tyro.conf.arg(metavar="FILE"), tyro.conf.Positional]
-    """Network file, such as art.safetensors of a training run."""
+    """Network file, such as art.safetensors of a training run or one of its checkpoints."""
     metrics: Path | None = None
     """evaluation.json of `artgen evaluate`; its means over all objects go into the card."""
     limits: tuple[str, ...] = ()

@@ -22,7 +22,14 @@ from model.data.items import Source
 from model.data.loader import batches
 from model.network.art import Art
 from model.precision import flushed_denormals
-from model.training.art_file import ModelCard, load_art, load_weights, save_art, stored_type
+from model.training.art_file import (
+    ModelCard,
+    load_art,
+    load_weights,
+    network_weights,
+    save_art,
+    stored_type,
+)
 from model.training.distributed import Plan, Team, joined, wait_for_all, whole
 from model.training.material import Material, make_missing, opened, stated_origin
 from model.training.objective import Objective
@@ -54,7 +61,7 @@ def run_session(
 
     Args:
         environment: where `torchrun` says who takes part.
-        start: network file whose weights to begin with.
+        start: network file, or checkpoint of a run, whose weights to begin with.
 
     Raises:
         UsageError: the folder holds a run of other settings, or is in use.
@@ -170,7 +177,7 @@ def hardware(team: Team) -> str:
 
 def _export(run: Run, art: Art, config: Config, card: ModelCard, path: Path) -> None:
     """Ship the moving average of the weights, in the larger type that stays within the limit."""
-    weights = {name.removeprefix("art."): whole(value) for name, value in run.average.items()}
+    weights = network_weights({name: whole(value) for name, value in run.average.items()})
     if run.team.leads:
         save_art(path, art, config, card, weights=weights, stored=stored_type(weights))
     wait_for_all(run.team)

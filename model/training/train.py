@@ -165,7 +165,8 @@ def _stopped(run: Run, folder: Path, faults: str, batches: Sequence[Batch]) -> M
     return ModelError(
         f"training stopped at step {run.step}: {faults}; the weights before it are in {path}; "
         f"objects of the step: {names or 'not named'}. Look at those objects, lower the learning "
-        "rate, or lower the weight of that term, and train into a new folder"
+        "rate, or lower the weight of that term, and train into a new folder from these weights: "
+        f"--start {path}"
     )
 
 

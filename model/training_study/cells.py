@@ -9,9 +9,8 @@ from artgen.core.errors import UsageError
 from artgen.core.jsonio import plain
 from artgen.progress import Show
 from model.config import Config
-from model.network.art import Art
-from model.training.art_file import ModelCard, load_art, save_art
-from model.training.checkpoint import checkpoint_path, read_checkpoint
+from model.training.art_file import load_art
+from model.training.checkpoint import checkpoint_path
 from model.training.material import Material
 from model.training.run_state import differences
 from model.training.session import RESULT, run_session
@@ -92,21 +91,8 @@ def _check_finished(place: Path, config: Config, material: Material) -> None:
 
 
 def network_at(cell: Cell, folder: Path, step: int) -> Path:
-    """The network as it was after some updates of the last stage: its moving average then.
-
-    Raises:
-        ModelError: there is no checkpoint of that update.
-    """
-    place = stage_folder(cell, folder, -1)
-    path = place / f"art_step_{step:08d}.safetensors"
-    if path.exists():
-        return path
-    config = cell.stages[-1]
-    checkpoint = read_checkpoint(checkpoint_path(place, step))
-    weights = {name.removeprefix("art."): value for name, value in checkpoint.average.items()}
-    card = ModelCard(steps=step, hours=checkpoint.seconds / 3600.0)
-    save_art(path, Art(config.model), config, card, weights=weights)
-    return path
+    """The network as it was after some updates of the last stage: a checkpoint."""
+    return checkpoint_path(stage_folder(cell, folder, -1), step)
 
 
 def hours_of(network: Path) -> float:

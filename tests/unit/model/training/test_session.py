@@ -6,63 +6,39 @@ from pathlib import Path
 import pytest
 import torch
 
-from artgen.core.errors import ModelError, UsageError
+from artgen.core.errors import UsageError
 from artgen.progress import silent
 from model.batch import Batch
-from model.config import Config
 from model.data.kept import Kept
-from model.data.library import packed, write_library
+from model.data.library import packed
 from model.data.loader import batches
-from model.data.soup import seed_soup
 from model.data.soup_source import SoupSource
 from model.network.art import Art
-from model.tensor_file import write_tensors
 from model.training.art_file import ModelCard, load_art, save_art
 from model.training.checkpoint import found_checkpoints, read_checkpoint
 from model.training.log import read_lines
 from model.training.material import Material, make_missing, opened
 from model.training.objective import Objective
 from model.training.picture import picture_of
-from model.training.recipes import articulation_only, debug
+from model.training.recipes import articulation_only
 from model.training.schedule import moment_at
-from model.training.session import run_session
 from model.training.settings import changed
-
-TINY = changed(
-    debug("nano"),
-    [
-        *("model.images.image_px=16", "model.images.encoder=none", "model.trunk.width=24"),
-        *("model.trunk.blocks=2", "model.trunk.heads=2", "model.planes.grid=4"),
-        *("data.input_px=16", "data.render_px=24", "data.target_px=16", "data.batch=2"),
-        *("data.rays=16", "data.slots=4", "train.steps=4", "train.save_every=2"),
-        *("train.picture_every=2", 'train.stages=[{"start":0.0,"target_px":16}]'),
-    ],
-)
+from tests.unit.model.tiny_session import TINY, laptop_material, laptops, session
 
 
 @pytest.fixture(scope="module")
 def source() -> SoupSource:
-    return SoupSource(packed([seed_soup("laptop", 0, k) for k in range(2)]), slots=4)
+    return SoupSource(packed(laptops()), slots=4)
 
 
 @pytest.fixture(scope="module")
-def material(source: SoupSource, tmp_path_factory: pytest.TempPathFactory) -> Material:
-    path = tmp_path_factory.mktemp("library") / "laptops.npz"
-    write_library(path, source.library)
-    return Material(library=path, split=None)
+def material(tmp_path_factory: pytest.TempPathFactory) -> Material:
+    return laptop_material(tmp_path_factory.mktemp("library"))
 
 
 @pytest.fixture(scope="module")
 def batch(source: SoupSource) -> Batch:
     return next(batches(source, TINY.data))
-
-
-def session(
-    material: Material, folder: Path, config: Config = TINY, *, start: Path | None = None
-) -> Path:
-    return run_session(
-        config, material, folder, environment={}, start=start, device="cpu", show=silent
-    )
 
 
 def test_a_session_leaves_a_network_that_equals_the_average(
@@ -103,24 +79,6 @@ def test_a_session_begins_with_given_weights(tmp_path: Path, material: Material)
     )
     for name, value in found.state_dict().items():
         assert torch.equal(value, art.state_dict()[name])
-
-
-def test_half_weights_round_to_11_bits(tmp_path: Path) -> None:
-    path = tmp_path / "half.safetensors"
-    torch.manual_seed(3)
-    art, card = Art(TINY.model), ModelCard(hours=0.5, metrics={"psnr_db": 20.0}, limits=("none",))
-    save_art(path, art, TINY, card, stored="float16")
-    found, _, read_card = load_art(path)
-    assert read_card == card
-    for name, value in found.state_dict().items():
-        # Half a unit in the 11th place, or half of the smallest number below 2 ** -14.
-        assert torch.allclose(value, art.state_dict()[name], rtol=2.0**-11, atol=2.0**-25)
-
-
-def test_network_files_of_another_kind_are_refused(tmp_path: Path) -> None:
-    write_tensors(tmp_path / "a", {}, schema="artgen-training/1", meaning={})
-    with pytest.raises(ModelError, match="expected 'artgen-art/1'"):
-        load_art(tmp_path / "a")
 
 
 def test_the_objective_learns_joints_before_it_renders(batch: Batch) -> None:
