@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from artgen.assembly.licence import KNOWN, UNSTATED, Licence
+from artgen.assembly.licence import KNOWN, UNSTATED, Licence, most_restrictive
 from artgen.core.conventions import ART_SLOTS
 from artgen.core.jsonio import plain
 from artgen.ingest.foreign import ForeignJoint, ForeignObject
@@ -15,7 +15,7 @@ from artgen.ingest.placing import Place
 from artgen.ingest.rest import Rest
 
 LICENCES = {"partnet-mobility": KNOWN["LicenseRef-PartNet-Mobility"]}
-"""By data set; others state theirs, or the user does."""
+"""By data set, whatever else is said; others state theirs, or the user does."""
 FINE = ("given", "high", "medium")
 
 
@@ -46,12 +46,8 @@ def provenance(account: Account) -> dict[str, Any]:
     foreign = account.foreign
     said: dict[str, Any] = plain(
         {
-            "source": {
-                "dataset": foreign.dataset,
-                "id": foreign.id,
-                "digest": foreign.digest,
-                "category": foreign.category,
-            },
+            **borrowed(foreign),
+            "source": source(foreign),
             "licence": licence(foreign, account.options),
             "template": None,
             "scale": account.place.scale,
@@ -74,17 +70,38 @@ def provenance(account: Account) -> dict[str, Any]:
     return said
 
 
+def source(foreign: ForeignObject) -> dict[str, Any]:
+    """Which object of which data set it is."""
+    numbered = {} if foreign.anno_id is None else {"anno_id": foreign.anno_id}
+    return {
+        "dataset": foreign.dataset,
+        "id": foreign.id,
+        "family": foreign.family,
+        "digest": foreign.digest,
+        "category": foreign.category,
+        **numbered,
+    }
+
+
+def borrowed(foreign: ForeignObject) -> dict[str, Any]:
+    """Families whose parts it has, where it was assembled before it was exported."""
+    donors = foreign.note.get("donors")
+    return {"donors": [str(one) for one in donors]} if isinstance(donors, list) and donors else {}
+
+
 def licence(foreign: ForeignObject, options: Options) -> Licence:
-    """The user's, else what the source states, else that of its data set."""
-    stated = foreign.note.get("licence")
-    known = LICENCES.get(foreign.dataset, UNSTATED)
-    if options.licence is not None:
-        return KNOWN.get(options.licence, Licence(
-            id=options.licence, text=f"Stated by the user: {options.licence}.", distributable=False
-        ))  # fmt: skip
+    """The most restrictive of what binds it: the terms of its data set, what the source states,
+    and what the user does, who can name terms but not lift any."""
+    stated, origin = foreign.note.get("licence"), foreign.note.get("source")
+    sets = [foreign.dataset, origin.get("dataset") if isinstance(origin, Mapping) else None]
+    bound = [LICENCES[name] for name in sets if isinstance(name, str) and name in LICENCES]
     if isinstance(stated, Mapping) and isinstance(stated.get("id"), str):
-        return KNOWN.get(stated["id"], known)
-    return known
+        bound.append(KNOWN.get(stated["id"], UNSTATED))
+    if options.licence is not None:
+        bound.append(KNOWN.get(options.licence, Licence(
+            id=options.licence, text=f"Stated by the user: {options.licence}.", distributable=False
+        )))  # fmt: skip
+    return most_restrictive(bound) if bound else UNSTATED
 
 
 def joints_read(account: Account) -> dict[str, dict[str, Any]]:
@@ -93,6 +110,7 @@ def joints_read(account: Account) -> dict[str, dict[str, Any]]:
     return {
         f"{account.names[joint.child]}_joint": {
             "source": joint.name,
+            "number": joint.number,
             "link": joint.child,
             "word": words[joint.child],
             "range": _shown(joint, joint.lower, joint.upper),

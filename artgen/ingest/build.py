@@ -100,15 +100,24 @@ def _prepared(foreign: ForeignObject, meshes: ReadMeshes, options: Options) -> F
     joints, doubts = bounded_slides(foreign.joints, reach)
     given = {rest.number: rest.q for rest in options.rests if rest.id == foreign.id}
     chosen = tuple(_with_rest(joint, given.get(joint.number)) for joint in joints)
-    return dataclasses.replace(foreign, joints=chosen, doubts=(*foreign.doubts, *doubts))
+    beyond = tuple(
+        f"joint {joint.name}: the closed pose given, {given[joint.number]}, lies beyond its range"
+        for joint in chosen
+        if joint.rest is not None and not np.isclose(_q(joint, given[joint.number]), joint.rest)
+    )
+    return dataclasses.replace(foreign, joints=chosen, doubts=(*foreign.doubts, *doubts, *beyond))
 
 
 def _with_rest(joint: ForeignJoint, given: float | None) -> ForeignJoint:
     """The joint with the user's closed pose (degrees or units), inside its limits."""
     if given is None or joint.lower is None or joint.upper is None:
         return joint
-    q = math.radians(given) if joint.type == "revolute" else given
-    return dataclasses.replace(joint, rest=min(max(q, joint.lower), joint.upper))
+    return dataclasses.replace(joint, rest=min(max(_q(joint, given), joint.lower), joint.upper))
+
+
+def _q(joint: ForeignJoint, given: float) -> float:
+    """rad or units of what the user states in degrees or units."""
+    return math.radians(given) if joint.type == "revolute" else given
 
 
 def _joints(

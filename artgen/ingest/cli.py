@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import math
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -55,9 +56,11 @@ class Settings:
     """Cuts that the collision of one part may take."""
     rest: Path | None = None
     """JSON file of closed poses that you know better: {"45940": {"3": 90.0}} puts the part that
-    node 3 of object 45940 moves at 90 degrees (units, where it slides)."""
+    node 3 of the object in folder 45940 moves at 90 degrees (units, where it slides); of a URDF,
+    the robot's name and the joint's. Entries that fit nothing are told."""
     licence: str | None = None
-    """SPDX identifier of the objects' terms, such as CC-BY-4.0; PartNet-Mobility's are known."""
+    """SPDX identifier of the objects' terms, such as CC-BY-4.0. It lifts none: where the source
+    binds more, as PartNet-Mobility does, that stays."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side; the result is the same for any number."""
 
@@ -154,9 +157,9 @@ def run(command: Settings, kind: Kind, found: Sequence[Found], options: Options)
     need = len(found) * BYTES_PER_OBJECT
     with opened(command.out, seed=0, need_bytes=need) as folder:
         outcomes = ingest_all(folder, kind, found, options, workers=command.workers, show=progress)
-        write_report(folder, outcomes)
+        write_report(folder, outcomes, options.rests)
     console = Console(highlight=False, soft_wrap=True)
-    console.print(table(outcomes), markup=False, end="")
+    console.print(table(outcomes, options.rests), markup=False, end="")
     console.print(f"report: {command.out / 'ingest_report.json'}", markup=False)
     return int(any(outcome.status == "refused" for outcome in outcomes))
 
@@ -196,12 +199,12 @@ def read_rests(path: Path) -> tuple[GivenRest, ...]:
     """Closed poses from the user's table.
 
     Raises:
-        UsageError: it is no JSON object of objects of numbers.
+        UsageError: it is no JSON object of objects of finite numbers.
     """
     try:
         stated = json.loads(path.read_text(encoding="utf-8"))
         return tuple(
-            GivenRest(id=str(name), number=str(number), q=float(q))
+            GivenRest(id=str(name), number=str(number), q=_finite(q))
             for name, own in sorted(stated.items())
             for number, q in sorted(own.items())
         )
@@ -209,3 +212,9 @@ def read_rests(path: Path) -> tuple[GivenRest, ...]:
         raise UsageError(
             f'--rest {path} cannot be read ({error}); write {{"45940": {{"3": 90.0}}}}'
         ) from error
+
+
+def _finite(q: object) -> float:
+    if isinstance(q, bool) or not isinstance(q, int | float) or not math.isfinite(q):
+        raise ValueError(f"{q!r} is no finite number")
+    return float(q)

@@ -68,7 +68,8 @@ class ForeignObject:
 
     Attributes:
         dataset: which kind of source: partnet-mobility, urdf, static.
-        id: of the object within it.
+        id: of the object within it, as users name it: a folder's, a robot's, a file's.
+        anno_id: number of the annotation, where the source has one beside the id.
         category: the source's word, or "".
         digest: hash of the files that were read for it.
         object_from_source: (3, 3) turn to z up, front -y.
@@ -86,4 +87,12 @@ class ForeignObject:
     object_from_source: Floats
     doubts: tuple[str, ...] = ()
     meters_per_unit: float | None = None
+    anno_id: str | None = None
     note: Mapping[str, object] = field(default_factory=dict)
+
+    @property
+    def family(self) -> str:
+        """What it shares with all that is made from it, so that splits never part them: of what
+        we exported, that of the original."""
+        stated = self.note.get("family")
+        return stated if isinstance(stated, str) else f"{self.dataset}:{self.id}"

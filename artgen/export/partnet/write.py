@@ -230,10 +230,13 @@ def _note(
         "preconditions": [rule.joint for rule in obj.preconditions],
         "grips": [grip.name for part in obj.parts for grip in part.grips],
     }
-    kept = {"source": obj.provenance["source"]} if "source" in obj.provenance else {}
+    kept = {key: obj.provenance[key] for key in ("source", "donors") if key in obj.provenance}
+    source = obj.provenance.get("source")
+    family = source.get("family") if isinstance(source, Mapping) else None
     return {
         "schema": NOTE_SCHEMA,
         "asset_id": obj.asset_id,
+        "family": family or obj.asset_id,
         "meters_per_unit": unit,
         "mesh_from_object": mesh_from_object,
         "left_out": {key: names for key, names in lost.items() if names},

@@ -44,7 +44,8 @@ MOST_SHOWN = 5
 
 
 def read_partnet(root: Path) -> ForeignObject:
-    """The object in the folder `root`.
+    """The object in the folder `root`, whose name is the object's id: `anno_id` is not, as folders
+    of six digits have that of another object.
 
     Raises:
         IngestError: a file that is needed is missing or damaged, or the nodes make no tree.
@@ -73,7 +74,7 @@ def read_partnet(root: Path) -> ForeignObject:
     meters = note.get("meters_per_unit")
     return ForeignObject(
         dataset=OWN_EXPORT if note else DATASET,
-        id=meta.anno_id or root.name,
+        id=root.absolute().name,
         category=meta.category or named,
         digest=_digest(root),
         parts=parts,
@@ -81,6 +82,7 @@ def read_partnet(root: Path) -> ForeignObject:
         object_from_source=np.array(OBJECT_FROM_MESH),
         doubts=(*doubts, *shortened(unused(root, nodes, objs))),
         meters_per_unit=float(meters) if isinstance(meters, int | float) else None,
+        anno_id=meta.anno_id or None,
         note=note,
     )
 

@@ -149,13 +149,22 @@ def test_the_users_table_of_rests_is_obeyed(tmp_path: Path) -> None:
     options = Options(rests=(GivenRest(id="45940", number="1", q=-90.0),))
     built = built_cabinet(tmp_path, options)
     read = built.obj.provenance["joints_read"]["door_joint"]
-    assert (read["confidence"], read["rest"]) == ("given", [-90.0])
+    assert (read["confidence"], read["rest"], read["number"]) == ("given", [-90.0], "1")
+    assert built.obj.provenance["doubts"] == []
+
+
+def test_a_rest_beyond_the_range_is_told(tmp_path: Path) -> None:
+    options = Options(rests=(GivenRest(id="45940", number="1", q=-120.0),))
+    said = built_cabinet(tmp_path, options).obj.provenance
+    assert said["joints_read"]["door_joint"]["rest"] == [-90.0]
+    assert said["doubts"] == ["joint joint_1: the closed pose given, -120.0, lies beyond its range"]
 
 
 def test_provenance_says_where_it_comes_from_and_who_may_have_it(tmp_path: Path) -> None:
     said = built_cabinet(tmp_path).obj.provenance
     assert said["source"]["dataset"] == "partnet-mobility"
     assert said["source"]["id"] == "45940"
+    assert said["source"]["family"] == "partnet-mobility:45940"
     assert said["licence"]["id"] == "LicenseRef-PartNet-Mobility"
     assert said["licence"]["distributable"] is False
     assert said["scale"]["reason"] == "assumed: longest 1.1 m"
