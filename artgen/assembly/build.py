@@ -5,7 +5,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from artgen.assembly.harvest import EMBEDDED, Made, bundle_source, embedded, made_source
+from artgen.assembly.harvest import (
+    EMBEDDED,
+    Made,
+    bundle_id,
+    bundle_source,
+    embedded,
+    made_source,
+)
 from artgen.assembly.library import seal_library
 from artgen.assembly.source import Source
 from artgen.assembly.store import write_source
@@ -27,9 +34,14 @@ TIMEOUT_S = 300.0
 
 @dataclass(frozen=True, kw_only=True)
 class SourceTask:
-    """One source to take apart: made by a generator, or a bundle on disk."""
+    """One source to take apart: made by a generator, or a bundle on disk.
+
+    Attributes:
+        id: of the source that comes of it.
+    """
 
     folder: Path
+    id: str
     made: Made | None = None
     bundle: Path | None = None
     sharp: bool = False
@@ -60,7 +72,8 @@ def build_library(
 ) -> tuple[str, list[Taken]]:
     """Write a library; its digest, and what could not be taken in.
 
-    Sources that lie in the folder already are kept, so that an interrupted build goes on.
+    Sources that lie in the folder already are kept, so that an interrupted build goes on. Of equal
+    bundles one is taken in.
 
     Args:
         sharp: leave edges sharp, without Blender.
@@ -68,25 +81,43 @@ def build_library(
     Raises:
         UsageError: no source could be taken in.
     """
-    tasks = [SourceTask(folder=folder, made=one, sharp=sharp) for one in made]
-    tasks += [SourceTask(folder=folder, bundle=bundle) for bundle in bundles]
-    there = [t for t in tasks if t.made and (folder / "sources" / f"{t.asset_id}.json").exists()]
-    taken = [Taken(task=t.asset_id, id=t.asset_id) for t in there]
-    missing = [task for task in tasks if task not in there]
+    tasks = [SourceTask(folder=folder, id=one.asset_id, made=one, sharp=sharp) for one in made]
+    found, taken = _bundle_tasks(folder, bundles)
+    tasks += found
+    there = {task.id for task in tasks if (folder / "sources" / f"{task.id}.json").exists()}
+    taken += [Taken(task=task.asset_id, id=task.id) for task in tasks if task.id in there]
+    missing = [task for task in tasks if task.id not in there]
     with show("sources", len(missing)) as advance:
         for outcome in _outcomes(missing, workers):
             taken.append(outcome)
             advance(f"{outcome.task} {outcome.fault}")
-    found = sorted({outcome.id for outcome in taken if outcome.id})
-    if not found:
+    ids = sorted(outcome.id for outcome in taken if outcome.id)
+    if not ids:
         raise UsageError(f"{folder}: no source could be taken in: {taken[0].fault}")
     recipe = {
         "made": [plain(one) for one in made],
-        "bundles": sorted(file_hash(bundle / MANIFEST) for bundle in bundles),
+        "bundles": sorted({file_hash(bundle / MANIFEST) for bundle in bundles}),
         "sharp": sharp,
     }
-    digest = seal_library(folder, found, recipe=recipe)
+    digest = seal_library(folder, ids, recipe=recipe)
     return digest, [outcome for outcome in taken if outcome.fault]
+
+
+def _bundle_tasks(folder: Path, bundles: Sequence[Path]) -> tuple[list[SourceTask], list[Taken]]:
+    """A task for each bundle, and those that cannot be read or are there twice."""
+    tasks: dict[str, SourceTask] = {}
+    faults = []
+    for bundle in bundles:
+        try:
+            id = bundle_id(bundle)
+        except ArtgenError as error:
+            faults.append(Taken(task=str(bundle), fault=str(error)))
+            continue
+        task = SourceTask(folder=folder, id=id, bundle=bundle)
+        if tasks.setdefault(id, task) is not task:
+            twin = f"is the same as {tasks[id].asset_id}"
+            faults.append(Taken(task=str(bundle), fault=twin))
+    return list(tasks.values()), faults
 
 
 def embedded_library(folder: Path, *, workers: int, show: Show, sharp: bool = False) -> Path:

@@ -113,7 +113,7 @@ class Assemble:
     what: tyro.conf.Positional[str]
     """What to make: storage_furniture."""
     count: int = 10
-    """How many objects to try; about one in ten is given up."""
+    """How many objects to try; about one in a hundred is given up."""
     seed: int = 0
     """Root of all randomness."""
     library: Path | None = None

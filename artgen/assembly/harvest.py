@@ -1,14 +1,18 @@
 """Where a library's sources come from: our own generators, and bundles of any origin."""
 
+import json
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from artgen.articulation.canonical import canonicalize
 from artgen.assembly.finished import finished_object
 from artgen.assembly.licence import licence_of
 from artgen.assembly.source import Source, source_of_draft, source_of_object
-from artgen.core.errors import UsageError
+from artgen.core.errors import ExportError, UsageError
+from artgen.core.jsonio import file_hash
 from artgen.core.stream import Stream
 from artgen.export import read_bundle
 from artgen.export.layout import MANIFEST
@@ -28,6 +32,12 @@ EMBEDDED: Mapping[str, int] = {
 """Objects of each category in the embedded library."""
 SEED = 6
 """Of the embedded library."""
+LONGEST = 80
+"""Characters of a bundle's own name in the id of its source."""
+DIGITS = 12
+"""Hex digits of its hash there."""
+OURS = "artgen"
+"""The data set of bundles that name no source."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,17 +87,40 @@ def bundle_source(folder: Path) -> Source:
         ExportError: it is damaged.
     """
     obj = finished_object(folder)
-    stated = obj.provenance.get("source")
-    origin = stated if isinstance(stated, Mapping) else {}
-    dataset = str(origin.get("dataset", "artgen"))
-    own = str(origin.get("id", obj.asset_id))
+    dataset, own = _origin(obj.provenance)
     return source_of_object(
         obj,
-        id=f"{dataset}_{own}".replace("/", "_").replace(" ", "_"),
+        id=bundle_id(folder),
         licence=licence_of(obj.provenance),
         dataset=dataset,
-        family=obj.asset_id if dataset == "artgen" else f"{dataset}:{own}",
+        family=obj.asset_id if dataset == OURS else f"{dataset}:{own}",
     )
+
+
+def bundle_id(folder: Path) -> str:
+    """The id of a bundle's source: what it is called, and a hash of its manifest, which holds the
+    hashes of its files. Names alone are unique only within one run of generate or ingest.
+
+    Raises:
+        ExportError: its manifest cannot be read.
+    """
+    path = folder / MANIFEST
+    try:
+        manifest = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise ExportError(f"{path}: cannot be read ({error}); make the bundle again") from error
+    if not isinstance(manifest, Mapping):
+        raise ExportError(f"{path}: holds no JSON object; make the bundle again")
+    called = re.sub(r"[^A-Za-z0-9_.-]+", "_", "_".join(_origin(manifest)))
+    return f"{called[:LONGEST]}_{file_hash(path)[:DIGITS]}"
+
+
+def _origin(manifest: Mapping[str, Any]) -> tuple[str, str]:
+    """The data set of a bundle and its id there."""
+    stated = manifest.get("source")
+    origin = stated if isinstance(stated, Mapping) else {}
+    own = origin.get("id", manifest.get("asset_id"))
+    return str(origin.get("dataset", OURS)), str(own)
 
 
 def bundle_folders(places: Sequence[Path]) -> Iterator[Path]:

@@ -9,6 +9,7 @@
 import hashlib
 import io
 import json
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -40,7 +41,9 @@ def write_piece(folder: Path, piece: Piece) -> dict[str, Any]:
     if not path.exists():
         buffer = io.BytesIO()
         np.savez_compressed(buffer, **arrays)
-        write_bytes(path, buffer.getvalue())
+        mine = path.with_suffix(f".{os.getpid()}")  # Another process may have an equal piece.
+        write_bytes(mine, buffer.getvalue())
+        mine.replace(path)
     return {"mesh": name, "densities": piece.densities, "grips": piece.grips}
 
 

@@ -12,6 +12,9 @@ from artgen.assembly.harvest import embedded, made_source
 from artgen.assembly.invariants import Case
 from artgen.assembly.library import Library, write_library
 from artgen.assembly.run import TEMPLATES, new_object
+from artgen.export import write_bundle
+from artgen.textures.library import TextureLibrary
+from tests.made import finished
 
 COUNTS = {"storage_furniture": 9, "cabinet": 9}
 TRIES = 24
@@ -55,3 +58,12 @@ def case_of(new: Assembled, library: Library) -> Case:
 def case_with(cases) -> Callable[[Callable[[Case], bool]], Case]:
     """The first case of which something is true."""
     return lambda wanted: next(case for case in cases if wanted(case))
+
+
+@pytest.fixture(scope="session")
+def bundle(tmp_path_factory, blender):
+    """One of our cabinets, written with its GLB."""
+    folder = tmp_path_factory.mktemp("bundle")
+    library = TextureLibrary(tmp_path_factory.mktemp("textures"))
+    write_bundle(finished("cabinet", 0), folder, library=library, worker=blender, thumbnail=b"none")
+    return folder

@@ -1,12 +1,15 @@
 """Libraries built by commands: the same at any number of workers, resumed, bundles beside ours."""
 
+import json
+import shutil
+
 import pytest
 
 from artgen.assembly.build import build_library
 from artgen.assembly.cli import assemble, library
-from artgen.assembly.harvest import embedded
+from artgen.assembly.harvest import bundle_id, embedded
 from artgen.assembly.library import Library
-from artgen.core.errors import UsageError
+from artgen.core.errors import ExportError, UsageError
 from artgen.progress import silent
 
 FEW = {"cabinet": 3}
@@ -33,6 +36,59 @@ def test_workers_and_resuming_change_nothing(tmp_path):
     assert built(tmp_path / "one", 1)[0] == digest
     assert built(tmp_path / "two", 2)[0] == digest
     assert content(tmp_path / "one") == content(tmp_path / "two")
+
+
+def with_manifest(bundle, folder, **changes):
+    """A copy of a bundle whose manifest says something else."""
+    shutil.copytree(bundle, folder)
+    path = folder / "manifest.json"
+    path.write_text(json.dumps({**json.loads(path.read_text()), **changes}))
+    return folder
+
+
+@pytest.mark.blender
+def test_bundles_of_one_name_are_sources_of_their_own_in_any_order(tmp_path, bundle):
+    """Object 0 of two runs with different seeds: the second once overwrote the first, so that the
+    order of the folders, or a race, told which of them the library held."""
+    runs = [with_manifest(bundle, tmp_path / f"run{seed}", seed=seed) for seed in (0, 1)]
+    digests = []
+    for name, order, workers in (("a", runs, 1), ("b", runs[::-1], 2)):
+        home = tmp_path / name
+        digest, faults = build_library(home, made=(), bundles=order, workers=workers, show=silent)
+        assert not faults
+        sources = {path.stem for path in (home / "sources").iterdir()}
+        assert sources == {bundle_id(run) for run in runs}
+        digests.append(digest)
+    assert digests[0] == digests[1]
+    assert content(tmp_path / "a") == content(tmp_path / "b")
+
+
+@pytest.mark.blender
+def test_a_bundle_that_is_there_twice_is_taken_in_once_and_told(tmp_path, bundle):
+    copy = shutil.copytree(bundle, tmp_path / "copy")
+    two = [bundle, copy]
+    digest, faults = build_library(tmp_path / "a", made=(), bundles=two, workers=1, show=silent)
+    assert [(f.task, f.fault) for f in faults] == [(str(copy), f"is the same as {bundle}")]
+    one = [copy]
+    assert build_library(tmp_path / "b", made=(), bundles=one, workers=1, show=silent)[0] == digest
+    assert content(tmp_path / "a") == content(tmp_path / "b")
+
+
+def test_ids_of_bundles_are_names_of_files_whatever_a_manifest_says(tmp_path):
+    for k, own in enumerate(["../../x", "a/b c", "Schrank ä\n", "x" * 400, None, 7]):
+        folder = tmp_path / str(k)
+        folder.mkdir()
+        manifest = {"asset_id": "x", "source": {"dataset": "urdf", "id": own}}
+        (folder / "manifest.json").write_text(json.dumps(manifest))
+        id = bundle_id(folder)
+        (tmp_path / f"{id}.json").touch()
+        assert (tmp_path / f"{id}.json").parent == tmp_path
+    (folder / "manifest.json").write_text("[]")
+    with pytest.raises(ExportError, match="no JSON object"):
+        bundle_id(folder)
+    (folder / "manifest.json").write_text("{")
+    with pytest.raises(ExportError, match="cannot be read"):
+        bundle_id(folder)
 
 
 @pytest.mark.parametrize(

@@ -4,23 +4,13 @@ import numpy as np
 import pytest
 
 from artgen.assembly.finished import finished_object
-from artgen.assembly.harvest import bundle_source
+from artgen.assembly.harvest import bundle_id, bundle_source
 from artgen.core.errors import ExportError
-from artgen.export import write_bundle
 from artgen.export.layout import GLB
-from artgen.textures.library import TextureLibrary
 from tests.made import finished
 
 FLOAT32 = 2e-6
 """m; UV pass through float32 tiles: 6e-8 of some 10 tiles of 1 m, then the grid of 1e-6 m."""
-
-
-@pytest.fixture(scope="module")
-def bundle(tmp_path_factory, blender):
-    folder = tmp_path_factory.mktemp("bundle")
-    library = TextureLibrary(tmp_path_factory.mktemp("textures"))
-    write_bundle(finished("cabinet", 0), folder, library=library, worker=blender, thumbnail=b"none")
-    return folder
 
 
 @pytest.mark.blender
@@ -41,7 +31,8 @@ def test_vertices_bodies_uv_and_surfaces_come_back(bundle):
 @pytest.mark.blender
 def test_a_bundle_is_a_source(bundle):
     source = bundle_source(bundle)
-    assert source.id == "artgen_" + finished("cabinet", 0).asset_id
+    assert source.id == bundle_id(bundle)
+    assert source.id.startswith("artgen_" + finished("cabinet", 0).asset_id)
     assert all(member.kind == "front" for member in source.members)
 
 
