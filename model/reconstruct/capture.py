@@ -5,9 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial.distance import cdist
 
 from artgen.core.errors import ModelError
 from artgen.core.mesh import Floats
+from artgen.core.transform import inverted
 from model.reconstruct.cameras import Rig, Shot
 from model.reconstruct.masks import Bytes, Segmenter, foreground, mask_beside, read_rgba
 
@@ -18,7 +21,7 @@ size."""
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Capture:
-    """What was photographed.
+    """What was photographed. View k of all states was taken from about the same place.
 
     Attributes:
         files: T lists of V image paths.
@@ -49,7 +52,8 @@ class Capture:
 def read_capture(
     images: Path, rig: Rig, *, masks: Path | None = None, segmenter: Segmenter | None = None
 ) -> Capture:
-    """The images of a rig, grouped by state in the order of the camera file.
+    """The images of a rig, grouped by state; the first in the order of the camera file, each later
+    one in the order that brings its cameras nearest to those of the first.
 
     Raises:
         ModelError: an image is missing or of another size, has no foreground, or states have
@@ -66,7 +70,7 @@ def read_capture(
             f"{rig.file}: states have unequal numbers of views ({told}); give each as many, and "
             "check the state of every image"
         )
-    grid = [by_state[state] for state in states]
+    grid = [paired(by_state[states[0]], by_state[state]) for state in states]
     files = tuple(tuple(images / shot.image for shot in row) for row in grid)
     pictures = [
         [_picture(images, shot, masks=masks, segmenter=segmenter) for shot in row] for row in grid
@@ -79,6 +83,18 @@ def read_capture(
         camera_from_world=np.array([[shot.camera_from_world for shot in row] for row in grid]),
         states=tuple(states),
     )
+
+
+def paired(first: Sequence[Shot], others: Sequence[Shot]) -> list[Shot]:
+    """The other shots in the order of the first ones: the cameras of a pair are as near to each
+    other as all pairs together allow."""
+    _, order = linear_sum_assignment(cdist(_eyes(first), _eyes(others)))
+    return [others[k] for k in order]
+
+
+def _eyes(shots: Sequence[Shot]) -> Floats:
+    """(V, 3) where the cameras stand."""
+    return np.array([inverted(shot.camera_from_world)[:3, 3] for shot in shots])
 
 
 def _picture(images: Path, shot: Shot, *, masks: Path | None, segmenter: Segmenter | None) -> Bytes:
