@@ -78,9 +78,15 @@ class IngestPartnet(Settings):
 class IngestUrdf(Settings):
     """Turn URDF files into bundles.
 
-    Meshes may be OBJ (with MTL), STL, GLB, DAE or PLY, below the folder of the URDF; lengths are
-    meters, as URDF says, unless --meters-per-unit is given.
+    Meshes may be OBJ (with MTL), STL, GLB, DAE or PLY, inside the folder that you name: give that
+    of the package (`artgen ingest urdf my_robot`), or the file and --root. package://NAME/ is the
+    nearest folder of that name. Lengths are meters, as URDF says, unless --meters-per-unit is
+    given.
     """
+
+    root: Path | None = None
+    """Folder that no mesh may lie outside of; by default the folder below which the URDF was
+    found, or its own where you name the file."""
 
     turn: float = -90.0
     """Degrees about z that bring the object's front to -y; -90 fits files whose front is +x."""
@@ -136,7 +142,7 @@ def partnet(argv: Sequence[str]) -> int:
 def urdf(argv: Sequence[str]) -> int:
     """URDF files to bundles: 0 all usable, 1 some refused."""
     command = tyro.cli(IngestUrdf, args=list(argv), prog="artgen ingest urdf")
-    found = found_files(command.paths, (".urdf",))
+    found = found_files(command.paths, (".urdf",), command.root)
     options = dataclasses.replace(checked_options(command), turn_deg=command.turn)
     return run(command, "urdf", found, options)
 

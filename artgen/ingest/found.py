@@ -14,10 +14,12 @@ PREFIX = {"partnet": "pm", "urdf": "urdf", "static": "static"}
 
 @dataclass(frozen=True, kw_only=True)
 class Found:
-    """An object's place; `problem` says why it cannot be read at all."""
+    """An object's place; `problem` says why it cannot be read at all, `root` inside which folder
+    its files may name others, None where that is its own."""
 
     path: Path
     problem: str | None = None
+    root: Path | None = None
 
 
 def found_folders(paths: Sequence[Path]) -> list[Found]:
@@ -61,23 +63,29 @@ def _no_folder(path: Path) -> str:
     return f"is a file ({path.suffix or 'no suffix'}), not a folder; unpack it first"
 
 
-def found_files(paths: Sequence[Path], suffixes: Sequence[str]) -> list[Found]:
-    """Files of some kinds at or below paths.
+def found_files(
+    paths: Sequence[Path], suffixes: Sequence[str], root: Path | None = None
+) -> list[Found]:
+    """Files of some kinds at or below paths; each may name others inside `root`, by default inside
+    the path below which it was found.
 
     Raises:
-        UsageError: there is no path.
+        UsageError: there is no path, or `root` is no folder.
     """
     if not paths:
         raise UsageError(f"name a file ({', '.join(suffixes)}) or a folder that holds some")
-    return _once(entry for path in paths for entry in _files(path, suffixes))
+    if root is not None and not root.is_dir():
+        raise UsageError(f"--root {root} is no folder")
+    return _once(entry for path in paths for entry in _files(path, suffixes, root))
 
 
-def _files(path: Path, suffixes: Sequence[str]) -> Iterator[Found]:
+def _files(path: Path, suffixes: Sequence[str], root: Path | None) -> Iterator[Found]:
     if path.is_dir():
         inner = [p for p in sorted(path.rglob("*")) if p.suffix.lower() in suffixes and p.is_file()]
         for place in inner:
             away = not _within(place, path)
-            yield Found(path=place, problem=f"a link that leaves {path}" if away else None)
+            problem = f"a link that leaves {path}" if away else None
+            yield Found(path=place, problem=problem, root=root or path)
         if not inner:
             yield Found(path=path, problem=f"holds no {', '.join(suffixes)}")
     elif not path.exists():
@@ -85,7 +93,7 @@ def _files(path: Path, suffixes: Sequence[str]) -> Iterator[Found]:
     elif path.suffix.lower() not in suffixes:
         yield Found(path=path, problem=f"is no {', '.join(suffixes)}")
     else:
-        yield Found(path=path)
+        yield Found(path=path, root=root)
 
 
 def _once(entries: Iterator[Found]) -> list[Found]:

@@ -59,7 +59,13 @@ def ingest_all(
 
 
 def _task(name: str, entry: Found, kind: Kind, options: Options) -> IngestTask:
-    return IngestTask(kind=kind, path=entry.path, asset_id=name, options=options)
+    return IngestTask(
+        kind=kind,
+        path=entry.path,
+        asset_id=name,
+        options=options,
+        root=entry.root if kind == "urdf" else None,
+    )
 
 
 def run_tasks(folder: RunFolder, tasks: Sequence[IngestTask], *, workers: int) -> Iterator[Outcome]:
@@ -99,8 +105,12 @@ def record_path(folder: RunFolder, asset_id: str) -> Path:
 
 def write_record(folder: RunFolder, task: IngestTask, outcome: Outcome, settings: str) -> None:
     """Keep an outcome; `settings` is a hash of all that it depends on but the source's files."""
-    entry = {"settings": settings, "path": str(task.path), "outcome": plain(outcome)}
+    entry = {"settings": settings, **_places(task), "outcome": plain(outcome)}
     write_json(record_path(folder, task.asset_id), entry)
+
+
+def _places(task: IngestTask) -> dict[str, str | None]:
+    return {"path": str(task.path), "root": None if task.root is None else str(task.root)}
 
 
 def kept_outcome(folder: RunFolder, task: IngestTask, settings: str) -> Outcome | None:
@@ -120,7 +130,8 @@ def kept_outcome(folder: RunFolder, task: IngestTask, settings: str) -> Outcome 
         return None  # A damaged record costs one object's time.
     if outcome.status == "refused":
         return None
-    if stated.get("settings") != settings or stated.get("path") != str(task.path):
+    same = all(stated.get(key) == place for key, place in _places(task).items())
+    if stated.get("settings") != settings or not same:
         raise UsageError(
             f"{folder.root}: {task.asset_id} was ingested with other settings or from another "
             "place; choose a new --out (nothing is overwritten)"

@@ -26,13 +26,6 @@ from artgen.validate import Report, validate_bundle
 
 Kind = Literal["partnet", "urdf", "static"]
 Status = Literal["valid", "flawed", "refused"]
-Reader = Callable[[Path, Options], ForeignObject]
-READERS: Mapping[Kind, Reader] = {
-    "partnet": lambda path, _: read_partnet(path),
-    "urdf": lambda path, options: read_urdf(path, turn_deg=options.turn_deg),
-    "static": lambda path, options: read_static(path, up=options.up, most=options.max_parts),
-}
-"""Kind of source to the function that reads one object of it."""
 BROKEN = (ET.ParseError, ValueError, LookupError, TypeError, ArithmeticError, RecursionError)
 """What damaged input makes libraries raise beyond our own errors."""
 MOST_SAID = 3
@@ -41,12 +34,22 @@ MOST_SAID = 3
 
 @dataclass(frozen=True, kw_only=True)
 class IngestTask:
-    """One object of a run."""
+    """One object of a run; `root` is the folder inside which its files may name others, where
+    that is not its own."""
 
     kind: Kind
     path: Path
     asset_id: str
     options: Options
+    root: Path | None = None
+
+
+READERS: Mapping[Kind, Callable[[IngestTask], ForeignObject]] = {
+    "partnet": lambda task: read_partnet(task.path),
+    "urdf": lambda task: read_urdf(task.path, turn_deg=task.options.turn_deg, root=task.root),
+    "static": lambda task: read_static(task.path, up=task.options.up, most=task.options.max_parts),
+}
+"""Kind of source to the function that reads one object of it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +87,7 @@ def ingest(task: IngestTask, tools: Toolbox) -> Outcome:
     """Read, build, write and judge one object; a bundle lands in assets/, or in failed/ where no
     simulator can use it. Input that cannot be used is an outcome, not an error."""
     try:
-        foreign = READERS[task.kind](task.path, task.options)
+        foreign = READERS[task.kind](task)
         category = category_name(foreign.category)
         built = build(foreign, task.options, asset_id=task.asset_id, category=category)
         return _written(task, built, tools)

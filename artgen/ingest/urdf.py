@@ -35,11 +35,12 @@ LISTS = ("xyz", "rpy", "scale", "size", "rgba")
 """Attributes whose numbers some files separate by commas."""
 
 
-def read_urdf(path: Path, *, turn_deg: float) -> ForeignObject:
-    """The object that a URDF file describes; meshes are looked for below its folder.
+def read_urdf(path: Path, *, turn_deg: float, root: Path | None = None) -> ForeignObject:
+    """The object that a URDF file describes; meshes are named from its folder.
 
     Args:
         turn_deg: about z, brings the object's front to -y.
+        root: folder that no mesh or image may lie outside of; the file's own where it is None.
 
     Raises:
         IngestError: it is no robot description, or its joints make no tree.
@@ -52,18 +53,27 @@ def read_urdf(path: Path, *, turn_deg: float) -> ForeignObject:
         raise IngestError(f"{path.name}: root element <{robot.tag}> instead of <robot>")
     commas = _without_commas(robot)
     tree = _Tree(robot, path)
+    place = _Place(file=path, root=path.parent if root is None else root)
     turn = np.round(axis_angle_matrix((0.0, 0.0, 1.0), np.radians(turn_deg)), TURN_DECIMALS)
     return ForeignObject(
         dataset="urdf",
         id=robot.get("name") or path.stem,
         category=robot.get("name") or path.stem,
         digest=file_hash(path),
-        parts=tuple(_part(robot, path, tree, name, links) for name, links in tree.groups.items()),
+        parts=tuple(_part(robot, place, tree, name, links) for name, links in tree.groups.items()),
         joints=tuple(_joint(stated, tree) for stated in tree.movers),
         object_from_source=turn,
         doubts=(*([f"{commas} lists of numbers had commas"] * bool(commas)), *tree.doubts),
         meters_per_unit=1.0,
     )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Place:
+    """A URDF file, and the folder inside which it may name others."""
+
+    file: Path
+    root: Path
 
 
 def _without_commas(robot: ET.Element) -> int:
@@ -174,7 +184,7 @@ def _joint(stated: StatedJoint, tree: _Tree) -> ForeignJoint:
 
 
 def _part(
-    robot: ET.Element, path: Path, tree: _Tree, name: str, links: Sequence[str]
+    robot: ET.Element, place: _Place, tree: _Tree, name: str, links: Sequence[str]
 ) -> ForeignPart:
     """Visual shapes of all links of a part; collision shapes where it has none."""
     elements = {link.get("name", ""): link for link in robot.iterfind("link")}
@@ -184,7 +194,7 @@ def _part(
             ForeignShape(
                 leaf=shape.get("name") or link,
                 label=f"{link}, {kind} {index}",
-                read=partial(_soup, shape, path, tree.pose[link], colors),
+                read=partial(_soup, shape, place, tree.pose[link], colors),
             )
             for link in links
             for index, shape in enumerate(elements[link].iterfind(kind))
@@ -197,9 +207,9 @@ def _part(
     )
 
 
-def _soup(shape: ET.Element, path: Path, pose: Floats, colors: Mapping[str, ET.Element]) -> Soup:
+def _soup(shape: ET.Element, place: _Place, pose: Floats, colors: Mapping[str, ET.Element]) -> Soup:
     """Triangles of a `<visual>` in the object frame at q = 0."""
-    mesh, place = shape.find("geometry/mesh"), pose @ pose_of(shape)
+    mesh, object_from_shape = shape.find("geometry/mesh"), pose @ pose_of(shape)
     if mesh is None:
         solid = solid_mesh(shape.find("geometry/*"))
         faces = solid.faces.astype(np.int64)
@@ -211,12 +221,12 @@ def _soup(shape: ET.Element, path: Path, pose: Floats, colors: Mapping[str, ET.E
         scale = np.array(numbers(mesh.get("scale", "1 1 1")))
         if scale.shape != (3,) or not np.isfinite(scale).all() or not scale.all():
             raise IngestError(f"scale {mesh.get('scale')!r} is not three numbers other than 0")
-        root = path.parent
-        soup = read_soup(inside(root, root, mesh.get("filename", "")), root)
+        file = inside(place.root, place.file.parent, mesh.get("filename", ""))
+        soup = read_soup(file, place.root)
     mirrored = float(np.prod(scale)) < 0.0
     stated = _color(shape, colors)
     return Soup(
-        vertices=apply(place, soup.vertices * scale),
+        vertices=apply(object_from_shape, soup.vertices * scale),
         faces=soup.faces[:, ::-1] if mirrored else soup.faces,
         uv=soup.uv[:, ::-1] if mirrored else soup.uv,
         look=soup.look,

@@ -1,5 +1,6 @@
 """Names of files in a stranger's asset: where they lead, and never outside its folder."""
 
+from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
 from artgen.core.errors import ExportError
@@ -11,30 +12,48 @@ MAX_MESH_BYTES = 64 * 2**20
 def inside(root: Path, base: Path, text: str) -> Path:
     """The file that `text` names, seen from the folder `base`.
 
-    `package://NAME/REST` is REST inside `root` where the root's folder is called NAME, and
-    NAME/REST inside it where not.
+    `package://NAME/REST` is REST inside the nearest folder called NAME that holds it, among `base`,
+    the folders above it up to `root`, and what lies beside them: the layout of ROS packages.
 
     Raises:
         ExportError: it is absolute, of another scheme, leads out of `root` (links followed), or is
             no file.
     """
+    package = ""
     if text.startswith("package://"):
-        name, _, rest = text.removeprefix("package://").partition("/")
-        base, text = root, rest if root.resolve().name == name else f"{name}/{rest}"
+        package, _, text = text.removeprefix("package://").partition("/")
     elif text.startswith("file://"):
         text = text.removeprefix("file://")
     if not text or "\0" in text or ":" in text or PurePosixPath(text).is_absolute():
         raise ExportError(f"{text!r} is no relative path; name files from the asset's folder")
-    place = base / text.replace("\\", "/")
+    text = text.replace("\\", "/")
+    bases = [*_packages(root, base, package)] if package else [base]
+    place = next((own / text for own in bases if (own / text).exists()), bases[0] / text)
     try:
         found = place.resolve(strict=True)
     except (OSError, RuntimeError) as error:
         raise ExportError(f"{text!r} does not exist") from error
     if not found.is_relative_to(root.resolve()):
-        raise ExportError(f"{text!r} leads out of the asset's folder; give that folder as --root")
+        raise ExportError(
+            f"{text!r} leads out of the asset's folder {root.absolute().name!r}; commands for URDF "
+            "files take a wider one as --root"
+        )
     if not found.is_file():
         raise ExportError(f"{text!r} is no file")
     return found
+
+
+def _packages(root: Path, base: Path, name: str) -> Iterator[Path]:
+    """Where a package may lie, the nearest first; one that is nowhere would lie in `root`."""
+    whole, own = root.absolute(), base.absolute()
+    if not own.is_relative_to(whole):  # One of them was named through a link.
+        whole, own = root.resolve(), base.resolve()
+    for place in (own, *own.parents):
+        if place.is_relative_to(whole):
+            if name in (place.name, place.resolve().name):
+                yield place
+            yield place / name
+    yield root / name
 
 
 def read_capped(path: Path, most: int = MAX_MESH_BYTES) -> bytes:

@@ -1,5 +1,6 @@
 """One object of a run: what cannot be used is one line, and nothing else is touched."""
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -129,5 +130,7 @@ def test_finished_objects_are_kept_and_refused_ones_tried_again(tmp_path: Path) 
     assert kept_outcome(folder, task, "hash") == outcome("flawed")
     with pytest.raises(UsageError, match="other settings"):
         kept_outcome(folder, task, "other")
+    with pytest.raises(UsageError, match="from another"):
+        kept_outcome(folder, dataclasses.replace(task, root=tmp_path), "hash")
     record_path(folder, "pm_x").write_text("{")
     assert kept_outcome(folder, task, "hash") is None

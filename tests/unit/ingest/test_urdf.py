@@ -8,10 +8,12 @@ import pytest
 import trimesh
 import yourdfpy
 
-from artgen.core.errors import IngestError
+from artgen.core.errors import IngestError, UsageError
 from artgen.core.mesh import Floats
 from artgen.core.transform import apply
 from artgen.ingest.build import build
+from artgen.ingest.cli import urdf
+from artgen.ingest.found import found_files
 from artgen.ingest.options import Options
 from artgen.ingest.reading import read_meshes
 from artgen.ingest.rest import Rest
@@ -216,3 +218,31 @@ def test_meshes_outside_the_folder_are_not_read(name: str, tmp_path: Path) -> No
     path = written(tmp_path / "inner", with_mesh(name))
     with pytest.raises(IngestError, match="no mesh that can be used"):
         read_meshes(read_urdf(path, turn_deg=0.0))
+
+
+@pytest.mark.parametrize("name", ["../meshes/b.stl", "package://my_robot/meshes/b.stl"])
+def test_meshes_beside_the_folder_of_the_urdf_are_read_below_the_folder_that_was_named(
+    name: str, tmp_path: Path
+) -> None:
+    """The layout of ROS packages, pkg/urdf and pkg/meshes, was refused, with the advice of an
+    option that did not exist. A file that is named by itself needs --root."""
+    package = tmp_path / "my_robot"
+    path = written(package / "urdf", with_mesh(name))
+    (package / "meshes").mkdir()
+    trimesh.creation.box((0.1, 0.2, 0.3)).export(package / "meshes/b.stl")
+    for found in (
+        found_files([package], (".urdf",)),
+        found_files([tmp_path], (".urdf",)),
+        found_files([path], (".urdf",), package),
+    ):
+        (entry,) = found
+        foreign = read_urdf(entry.path, turn_deg=0.0, root=entry.root)
+        assert len(read_meshes(foreign).points(foreign.parts[0])) == 36
+    (alone,) = found_files([path], (".urdf",))
+    with pytest.raises(IngestError, match=r"as --root|does not exist"):
+        read_meshes(read_urdf(alone.path, turn_deg=0.0, root=alone.root))
+
+
+def test_the_command_takes_the_root_that_its_messages_name(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="--root .*none is no folder"):
+        urdf([str(tmp_path), "--root", str(tmp_path / "none")])
