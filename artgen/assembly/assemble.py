@@ -43,7 +43,8 @@ class Assembled:
     """A new object before it is unwrapped and weighed, and what it is made from.
 
     Attributes:
-        sources: for each slot filled, what filled it, as JSON.
+        sources: for each piece of each part where it comes from, as JSON: `base`, `part` (one that
+            the template keeps), `front` or `whole`, `handle`, `works`.
         tried: reasons for which something else was taken before.
         seams: name of a filled part to how many of its bodies are front, handle and works.
         pushed: its fronts have no handles; they are pushed to open.
@@ -71,6 +72,12 @@ class Assembled:
         counts = self.seams[name]
         place = LAYERS.index(layer)
         return picked(self.piece(name), range(sum(counts[:place]), sum(counts[: place + 1])))
+
+    @property
+    def given(self) -> list[Mapping[str, Any]]:
+        """The entries of `sources` of bodies that come from donors."""
+        bodies = (entry for entry in self.sources if entry["piece"] in ("front", "whole"))
+        return [entry for entry in bodies if entry["source"] != self.template]
 
     @property
     def hashes(self) -> dict[str, str]:
@@ -190,6 +197,7 @@ class _Attempt:
             self.plan.tried.append(why)
 
     def _base(self, piece: Piece) -> Piece:
+        self._tell(self.source.base_name, "base", self.source, of=self.source.base_name)
         return self.table.take(piece, self.source.surfaces, self._for_body)
 
     def _for_body(self, surface: SurfaceSpec) -> SurfaceSpec:
@@ -202,6 +210,7 @@ class _Attempt:
         if group is None or (member.kind == "whole" and place is None):
             change: Change = self._for_body if group is None else self._for_front
             pieces = [self.table.take(p, self.source.surfaces, change) for p in member.pieces]
+            self._tell(member.name, "part", self.source, of=member.name)
             return _with_grips(joined(pieces), member)
         donor_source, donor = self.source, member
         if place is not None:
@@ -228,8 +237,7 @@ class _Attempt:
         if self.plan.push and takes_push(member, donor):
             front = with_push(front, member.side, member.name)
         taken = self.table.take(front, donor_source.surfaces, self._for_front)
-        if place is not None:
-            self._tell(member, donor_source, donor, fill)
+        self._tell_body(member, donor_source, donor, fill)
         layers = [taken, handle, self._works(member)]
         body, knob, rest = (len(p.densities) if p else 0 for p in layers)
         self.seams[member.name] = body, knob, rest
@@ -238,6 +246,7 @@ class _Attempt:
     def _works(self, member: Member) -> Piece | None:
         if member.works is None:
             return None
+        self._tell(member.name, "works", self.source, of=member.name)
         return self.table.take(member.works, self.source.surfaces, lambda surface: surface)
 
     def _handle(self, member: Member, donor: Member, fill: Fill) -> Piece | None:
@@ -256,17 +265,15 @@ class _Attempt:
             entry = self.handles[self.plan.handle]
             source = self.market.library.source(entry.source)
             part = source.members[entry.number]
-            self.donors.add(source.family)
-            self.licences.append(source.licence)
         mounted = middle_grip(handle_on(member, fill.body, donor, part), member.name)
-        self.told.append({"part": member.name, "piece": "handle", "source": source.id,
-                          "of": part.name, "licence": source.licence.id})  # fmt: skip
+        self._tell(member.name, "handle", source, of=part.name)
         return self.table.take(mounted, source.surfaces, self._for_handle)
 
     def _own_handle(self, member: Member) -> Piece | None:
         """The template's handle where it was."""
         if member.handle is None:
             return None
+        self._tell(member.name, "handle", self.source, of=member.name)
         return self.table.take(member.handle, self.source.surfaces, self._for_handle)
 
     def _waits(self, member: Member) -> bool:
@@ -278,20 +285,20 @@ class _Attempt:
     def _for_handle(self, surface: SurfaceSpec) -> SurfaceSpec:
         return handle_surface(surface, self.looks)
 
-    def _tell(self, member: Member, source: Source, donor: Member, fill: Fill) -> None:
+    def _tell_body(self, member: Member, source: Source, donor: Member, fill: Fill) -> None:
+        """Where a front comes from, and how it was fitted unless it is the template's own."""
+        scale = [round(float(s), 6) for s in fill.scale]
+        how = {} if donor is member else {"scale": scale, "mirrored": fill.mirrored}
+        self._tell(member.name, donor.kind, source, of=donor.name, **how)
+
+    def _tell(self, part: str, piece: str, source: Source, *, of: str, **more: object) -> None:
+        """Where a piece of a part comes from; its terms and family bind the whole."""
         self.donors.add(source.family)
         self.licences.append(source.licence)
         self.told.append(
-            {
-                "part": member.name,
-                "piece": donor.kind,
-                "source": source.id,
-                "of": donor.name,
-                "licence": source.licence.id,
-                "scale": [round(float(s), 6) for s in fill.scale],
-                "mirrored": fill.mirrored,
-            }
-        )
+            {"part": part, "piece": piece, "source": source.id, "of": of,
+             "licence": source.licence.id, **more}
+        )  # fmt: skip
 
 
 def _with_grips(piece: Piece, member: Member) -> Piece:

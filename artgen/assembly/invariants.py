@@ -13,17 +13,17 @@ from artgen.articulation.kinematics import forward_kinematics
 from artgen.articulation.roles import ROLES
 from artgen.articulation.types import Joint, State
 from artgen.assembly.assemble import Assembled
+from artgen.assembly.case import Case
 from artgen.assembly.clash import more_open, open_overlaps, template_open
 from artgen.assembly.evenness import density_by_part, density_by_surface
 from artgen.assembly.licence import most_restrictive
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.piece import Piece, body_volumes
 from artgen.assembly.shape_hash import tree_hash
-from artgen.assembly.source import Member, Source
+from artgen.assembly.source import Member
 from artgen.assembly.texels import STRETCH, stretch
 from artgen.assembly.uv_fix import areas
 from artgen.assembly.variation import LEAST_TRAVEL, may_shorten
-from artgen.core.mesh import Floats
 from artgen.core.transform import apply
 from artgen.dataset.split import split_of
 from artgen.geometry.clearance import shape_of_mesh
@@ -65,37 +65,6 @@ class Broken:
     part: str
     value: str
     bound: str
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Case:
-    """An object beside its template and the sources of its parts, by id."""
-
-    new: Assembled
-    template: Source
-    sources: Mapping[str, Source]
-
-    @property
-    def shift(self) -> Floats:
-        """(3,) from the template's frame to the object's: the base is the same in both."""
-        base = self.new.parts[0][2]
-        return np.asarray(base.bounds[0] - self.template.base.bounds[0])
-
-    @property
-    def diagonal(self) -> float:
-        """Of the object at rest, m."""
-        boxes = np.array([piece.bounds for _, _, piece in self.new.parts])
-        return float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)))
-
-    @property
-    def filled(self) -> Iterator[tuple[Member, Joint, Piece]]:
-        """Each filled part: the template's, its joint in the object, its fitted body."""
-        joints = {joint.child: joint for joint in self.new.joints}
-        for member in self.template.members:
-            if member.name in self.new.seams:
-                body = self.new.layer(member.name, "body")
-                if body is not None:
-                    yield member, joints[member.name], body
 
 
 def tree(case: Case) -> Iterator[Broken]:
@@ -284,9 +253,7 @@ def textured(case: Case) -> Iterator[Broken]:
         if not RATIO[0] <= median / middle <= RATIO[1]:
             value, bound = f"{median / middle:.3f}", f"density {RATIO[0]} to {RATIO[1]} of others"
             yield Broken(number=10, part=name, value=value, bound=bound)
-    for entry in case.new.sources:
-        if entry["piece"] == "handle":
-            continue
+    for entry in case.new.given:
         donor = _donor(case, entry)
         body = case.new.layer(str(entry["part"]), "body")
         if body is None:
@@ -300,9 +267,7 @@ def textured(case: Case) -> Iterator[Broken]:
 
 def kept_roles(case: Case) -> Iterator[Broken]:
     """11: panes stay panes and mirrors stay mirrors."""
-    for entry in case.new.sources:
-        if entry["piece"] == "handle":
-            continue
+    for entry in case.new.given:
         source, donor = case.sources[str(entry["source"])], _donor(case, entry)
         body = case.new.layer(str(entry["part"]), "body")
         if body is None:
@@ -315,12 +280,16 @@ def kept_roles(case: Case) -> Iterator[Broken]:
 
 
 def licensed(case: Case) -> Iterator[Broken]:
-    """15: every filled part names its source, and the licence is the most restrictive of them."""
-    named = {str(entry["part"]) for entry in case.new.sources if entry["piece"] != "handle"}
-    for member, _, _ in case.filled:
-        own = member.name not in named
-        if own and not case.new.layer(member.name, "body"):
-            yield _broken(15, member, "no source", "a source")
+    """15: every piece of every part names its source with its licence, and the licence of the whole
+    is the most restrictive of them."""
+    named = {(str(entry["part"]), str(entry["piece"])) for entry in case.new.sources}
+    for part, piece in case.pieces:
+        if (part, piece) not in named:
+            yield Broken(number=15, part=part, value=f"its {piece} has no source", bound="a source")
+    for entry in case.new.sources:
+        own = case.sources[str(entry["source"])].licence.id
+        if entry["licence"] != own:
+            yield Broken(number=15, part=str(entry["part"]), value=entry["licence"], bound=own)
     used = {str(entry["source"]) for entry in case.new.sources} | {case.template.id}
     wanted = most_restrictive(case.sources[id].licence for id in used)
     if case.new.licence != wanted:

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from artgen.assembly.assemble import Assembled, GivenUp
+from artgen.assembly.case import Case, case_of
 from artgen.assembly.choice import Market
 from artgen.assembly.evenness import density_by_part
-from artgen.assembly.invariants import Case, broken
+from artgen.assembly.invariants import broken
 from artgen.assembly.library import Library
 from artgen.assembly.run import TEMPLATES, new_object
 from artgen.assembly.source import Member
@@ -150,16 +151,11 @@ def _given_up(index: int, new: GivenUp, spent: float) -> Row:
 
 def _row(index: int, new: Assembled, library: Library, spent: float) -> Row:
     began = time.process_time()
-    ids = {str(entry["source"]) for entry in new.sources} | {new.template}
-    case = Case(
-        new=new,
-        template=library.source(new.template),
-        sources={id: library.source(id) for id in ids},
-    )
+    case = case_of(new, library)
     faults = broken(case)
     medians = np.array(list(density_by_part(new).values()) or [1.0])
     hashes = new.hashes
-    bodies = [entry for entry in new.sources if entry["piece"] != "handle"]
+    bodies = new.given
     return Row(
         index=index,
         template=new.template,
@@ -192,8 +188,8 @@ def _shorter(case: Case) -> int:
 def fitted_bodies(new: Assembled, library: Library) -> list[tuple[TriMesh, TriMesh, bool]]:
     """Each fitted body, the donor's mesh, and whether it was mirrored."""
     found = []
-    for entry in new.sources:
-        body = None if entry["piece"] == "handle" else new.layer(str(entry["part"]), "body")
+    for entry in new.given:
+        body = new.layer(str(entry["part"]), "body")
         if body is not None:
             donor = _member(library, entry)
             found.append((body.mesh, donor.body.mesh, bool(entry["mirrored"])))

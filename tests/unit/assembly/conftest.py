@@ -7,9 +7,9 @@ import pytest
 
 from artgen.assembly.assemble import Assembled
 from artgen.assembly.build import sharp
+from artgen.assembly.case import Case, case_of
 from artgen.assembly.choice import Market
 from artgen.assembly.harvest import embedded, made_source
-from artgen.assembly.invariants import Case
 from artgen.assembly.library import Library, write_library
 from artgen.assembly.run import TEMPLATES, new_object
 from artgen.export import write_bundle
@@ -43,15 +43,6 @@ def cases(market):
     """Objects 0, 1, 2 ... that were assembled."""
     found = [new_object(market, "storage_furniture", 1, index) for index in range(TRIES)]
     return [case_of(new, market.library) for new in found if isinstance(new, Assembled)]
-
-
-def case_of(new: Assembled, library: Library) -> Case:
-    ids = {str(entry["source"]) for entry in new.sources} | {new.template}
-    return Case(
-        new=new,
-        template=library.source(new.template),
-        sources={id: library.source(id) for id in ids},
-    )
 
 
 @pytest.fixture(scope="session")

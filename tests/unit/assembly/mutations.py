@@ -7,7 +7,7 @@ import numpy as np
 
 from artgen.articulation.types import Joint
 from artgen.assembly.assemble import Assembled
-from artgen.assembly.invariants import Case
+from artgen.assembly.case import Case
 from artgen.assembly.piece import Piece, joined
 from artgen.assembly.source import Member
 

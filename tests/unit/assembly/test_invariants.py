@@ -179,7 +179,7 @@ def test_10_texture_left_stretched(cases):
     """Left as they were on the donor, fronts that were scaled unequally show it."""
     caught = 0
     for case in cases:
-        for entry in case.new.sources:
+        for entry in case.new.given:
             if entry["piece"] != "front" or max(entry["scale"]) / min(entry["scale"]) < 1.5:
                 continue
             donor = next(m for m in case.sources[entry["source"]].members
@@ -211,11 +211,31 @@ def test_11_a_pane_that_became_wood(case_with):
 
 def test_15_one_restrictive_source_binds_the_whole(cases):
     case = cases[0]
-    used = case.new.sources[0]["source"]
+    used = case.new.given[0]["source"]
+    told = tuple({**e, "licence": PARTNET.id} if e["source"] == used else e
+                 for e in case.new.sources)  # fmt: skip
     bound = {**case.sources, used: replace(case.sources[used], licence=PARTNET)}
-    assert numbers(invariants.licensed(replace(case, sources=bound))) == {15}
-    stated = with_new(replace(case, sources=bound), licence=PARTNET)
-    assert numbers(invariants.licensed(stated)) == set()
+    case = with_new(replace(case, sources=bound), sources=told)
+    assert numbers(invariants.licensed(case)) == {15}
+    assert not numbers(invariants.licensed(with_new(case, licence=PARTNET)))
+
+
+def test_15_a_piece_without_a_source(cases):
+    """Each in turn: once no check could fail here, and bases, works and fronts that the template
+    kept named no source."""
+    for case in cases[:6]:
+        told = case.new.sources
+        assert {part for part, _, _ in case.new.parts} == {entry["part"] for entry in told}
+        for k, entry in enumerate(told):
+            less = with_new(case, sources=(*told[:k], *told[k + 1 :]))
+            faults = list(invariants.licensed(less))
+            assert [fault.part for fault in faults] == [entry["part"]]
+
+
+def test_15_a_source_under_other_terms(cases):
+    case = cases[0]
+    told = ({**case.new.sources[0], "licence": "MIT"}, *case.new.sources[1:])
+    assert numbers(invariants.licensed(with_new(case, sources=told))) == {15}
 
 
 def test_16_a_donor_of_another_split(cases):
@@ -228,6 +248,6 @@ def test_16_a_donor_of_another_split(cases):
 
 def test_16_a_donor_that_is_not_named(cases):
     case = cases[0]
-    used = case.new.sources[0]["source"]
+    used = case.new.given[0]["source"]
     sources = {**case.sources, used: replace(case.sources[used], family="unnamed")}
     assert numbers(invariants.held_out(replace(case, sources=sources))) == {16}
