@@ -15,6 +15,7 @@ from artgen.dataset.split import Split
 from artgen.progress import progress
 from model.config import Config
 from model.data.config import DataConfig
+from model.data.fingerprint import fingerprint
 from model.data.items import Source
 from model.data.library import read_library
 from model.data.shards import ShardSource
@@ -120,8 +121,12 @@ def judged(predictor: Predictor, item: HeldOut, protocol: Protocol, folder: Path
 
 def run_key(asked: NetworkRun, protocol: Protocol) -> str:
     """What records depend on."""
-    files = [Path(asked.predictions), asked.truth, asked.train]
-    hashes = [file_hash(own) for own in files if own is not None and own.is_file()]
+    network = Path(asked.predictions)
+    hashes = [file_hash(network)] if network.is_file() else []
+    if asked.truth.exists():
+        hashes.append(fingerprint(asked.truth, asked.split))
+    if asked.train is not None and asked.train.exists():
+        hashes.append(fingerprint(asked.train, "train"))
     return content_hash([dataclasses.asdict(asked), protocol, hashes])
 
 

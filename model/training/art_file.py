@@ -135,7 +135,7 @@ def _averaged(path: Path) -> _Stored:
     return _Stored(
         weights=network_weights(found.average),
         config=config,
-        encoder=found.config.get("encoder", ""),
+        encoder=found.config.get("inputs", {}).get("encoder", ""),
         card=ModelCard(
             data={"seen": found.cursor},
             steps=found.step,

@@ -10,6 +10,7 @@ from artgen.dataset.split import Split
 from artgen.progress import Show
 from artgen.rules import rule_names
 from model.data.config import DataConfig
+from model.data.fingerprint import fingerprint
 from model.data.items import Source
 from model.data.kept import Kept
 from model.data.library import library_made, read_library
@@ -54,6 +55,15 @@ def stated_origin(material: Material, seed: int) -> Mapping[str, object]:
     if material.library is not None:
         return library_made(material.library)
     return material.request(seed).made if material.categories or not material.shards else {}
+
+
+def material_hashes(material: Material, folder: Path) -> dict[str, Any]:
+    """What the material holds, by content; the objects of the folder are there by now."""
+    library = _library(material, folder)
+    return {
+        "library": library and fingerprint(library),
+        "shards": [fingerprint(path, material.split) for path in material.shards],
+    }
 
 
 def make_missing(material: Material, folder: Path, data: DataConfig, *, show: Show) -> None:

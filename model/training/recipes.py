@@ -54,7 +54,9 @@ MODELS: Mapping[Size, ModelConfig] = {
 
 DATA: Mapping[Size, DataConfig] = {
     "nano": DataConfig(input_px=48, render_px=64, target_px=48, views=2, batch=32, rays=128),
-    "s": DataConfig(input_px=128, render_px=160, target_px=128, views=4, batch=64, rays=1024),
+    "s": DataConfig(
+        input_px=128, render_px=160, target_px=128, views=4, batch=64, rays=1024, patch_px=32
+    ),
     "paper": DataConfig(
         input_px=256,
         render_px=320,
@@ -95,10 +97,12 @@ TRAIN: Mapping[Size, TrainConfig] = {
 BY_PATHS = LossWeights(motion=10.0, motion_as="paths")
 """Motions compared by the ways that parts go, as the small sizes learn them."""
 
-WEIGHTS: Mapping[Size, LossWeights] = {"nano": BY_PATHS, "s": BY_PATHS, "paper": LossWeights()}
-
-STATIC = LossWeights(type=0.0, axis=0.0, origin=0.0, motion=0.0, limits=0.0, parent=0.0)
-"""Rendering and boxes alone, as the paper pre-trains."""
+WEIGHTS: Mapping[Size, LossWeights] = {
+    "nano": dataclasses.replace(BY_PATHS, part_perceptual=0.0),
+    "s": BY_PATHS,
+    "paper": LossWeights(limits=0.0, parent=0.0, count=0.0),
+}
+"""Of terms that are computed: `nano` has no patches to compare, `paper` no heads of ours."""
 
 
 def multiview(size: Size) -> Config:
@@ -121,15 +125,18 @@ def monocular(size: Size) -> Config:
 
 
 def static_pretrain(size: Size) -> Config:
-    """Shapes and boxes of parts at rest, before anything moves.
+    """Shapes and boxes of parts at rest, before anything moves, as the paper pre-trains.
 
     Rays follow the true joints to the end: nothing teaches the predicted ones.
     """
     config = multiview(size)
     data = dataclasses.replace(config.data, motion="rest")
     train = dataclasses.replace(config.train, rendered=0.0, forced=1.0)
+    weights = dataclasses.replace(
+        config.weights, type=0.0, axis=0.0, origin=0.0, motion=0.0, limits=0.0, parent=0.0
+    )
     return dataclasses.replace(
-        config, recipe="static_pretrain", data=data, weights=STATIC, train=train
+        config, recipe="static_pretrain", data=data, weights=weights, train=train
     )
 
 
@@ -141,6 +148,7 @@ def debug(size: Size) -> Config:
         config,
         recipe="debug",
         data=dataclasses.replace(config.data, batch=4, rays=min(config.data.rays, 256), patch_px=0),
+        weights=dataclasses.replace(config.weights, part_perceptual=0.0),
         train=dataclasses.replace(
             train,
             steps=20,

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import logging
 import platform
 from collections.abc import Iterator, Mapping
 from contextlib import nullcontext
@@ -13,7 +14,7 @@ import torch
 from numpy.typing import NDArray
 
 from artgen.core.errors import UsageError
-from artgen.core.jsonio import plain, write_json
+from artgen.core.jsonio import file_hash, plain, write_json
 from artgen.progress import Show, progress
 from artgen.run_folder import locked
 from model.batch import Batch
@@ -31,13 +32,22 @@ from model.training.art_file import (
     stored_type,
 )
 from model.training.distributed import Plan, Team, joined, wait_for_all, whole
-from model.training.material import Material, make_missing, opened, stated_origin
+from model.training.idle import idle_line, idle_terms
+from model.training.material import (
+    Material,
+    make_missing,
+    material_hashes,
+    opened,
+    stated_origin,
+)
 from model.training.objective import Objective
-from model.training.perceptual import packaged_distance
+from model.training.perceptual import FeatureDistance, packaged_distance
 from model.training.picture import picture_of
 from model.training.run_state import Run, begun, differences, resume, trained_state
 from model.training.schedule import Moment
 from model.training.train import Draw, Supply, train
+
+log = logging.getLogger(__name__)
 
 RESULT = "art.safetensors"
 LIMITS = (
@@ -64,7 +74,7 @@ def run_session(
         start: network file, or checkpoint of a run, whose weights to begin with.
 
     Raises:
-        UsageError: the folder holds a run of other settings, or is in use.
+        UsageError: the folder holds a run of other settings or other data, or is in use.
         ModelError: data, weights or the training itself failed.
     """
     with flushed_denormals(), joined(environment, device=device, plan=plan) as team:
@@ -72,10 +82,17 @@ def run_session(
             folder.mkdir(parents=True, exist_ok=True)
         with locked(folder) if team.leads else nullcontext():
             settings = {"config": plain(config), "material": plain(material)}
-            _claim(folder, settings, team)
+            _claim(folder / "config.json", settings, team, "other settings")
             source = _opened(material, folder, config, team, show)
-            art = _network(config, start)
-            run = _begun(art, config, team, settings)
+            art, perceptual = _network(config, start), _perceptual(config, team)
+            inputs = {
+                **material_hashes(material, folder),
+                "start": start and file_hash(start),
+                "encoder": art.encoder_identity,
+                "perceptual": perceptual is not None,
+            }
+            _claim(folder / "inputs.json", inputs, team, "other data or weights")
+            run = _begun(art, perceptual, config, team, {**settings, "inputs": inputs})
             resume(run, folder)
             supply = _supply(source, config, team)
             train(run, supply, folder=folder, show=show, draw=_draw(art, supply, team))
@@ -84,16 +101,15 @@ def run_session(
     return folder / RESULT
 
 
-def _claim(folder: Path, settings: Mapping[str, Any], team: Team) -> None:
-    """Write the settings into a new folder, or see that an old one has the same."""
-    path = folder / "config.json"
+def _claim(path: Path, ours: Mapping[str, Any], team: Team, what: str) -> None:
+    """Write into a new folder what its run depends on, or see that an old one has the same."""
     if team.leads and not path.exists():
-        write_json(path, settings)
+        write_json(path, ours)
     wait_for_all(team)
     found = json.loads(path.read_text(encoding="utf-8"))
-    if lines := differences(found, plain(settings)):
+    if lines := differences(found, plain(ours)):
         raise UsageError(
-            f"{folder}: holds a run of other settings: {'; '.join(lines[:5])}; give the same ones "
+            f"{path.parent}: holds a run of {what}: {'; '.join(lines[:5])}; give the same ones "
             "to resume, or choose another --out"
         )
 
@@ -117,14 +133,30 @@ def _network(config: Config, start: Path | None) -> Art:
     return art
 
 
-def _begun(art: Art, config: Config, team: Team, settings: Mapping[str, Any]) -> Run:
-    compared = config.weights.part_perceptual > 0.0 and config.data.patch_px > 0
+def _perceptual(config: Config, team: Team) -> FeatureDistance | None:
+    """The image distance that the settings ask for, where installed; what is left out is told."""
+    possible = "part_perceptual" not in idle_terms(config, perceptual=True)
+    asked = config.weights.part_perceptual > 0.0 and possible
+    distance = packaged_distance() if asked else None
+    idle = idle_terms(config, perceptual=distance is not None)
+    if idle and team.leads:
+        log.warning("%s", idle_line(idle))
+    return distance
+
+
+def _begun(
+    art: Art,
+    perceptual: FeatureDistance | None,
+    config: Config,
+    team: Team,
+    settings: Mapping[str, Any],
+) -> Run:
     objective = Objective(
         art,
         config.weights,
         precision=config.train.precision,
         field_precision=config.train.field_precision,
-        perceptual=packaged_distance() if compared else None,
+        perceptual=perceptual,
     )
     return begun(objective, config.train, items=config.data.batch, team=team, settings=settings)
 

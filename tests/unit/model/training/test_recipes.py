@@ -63,8 +63,18 @@ def test_without_shapes_there_are_no_rays() -> None:
     assert config.data.patch_px == 0
 
 
-def test_paper_size_has_patches_for_its_perceptual_term() -> None:
-    config = RECIPES["multiview"]("paper")
+@pytest.mark.parametrize("size", ["s", "paper"])
+@pytest.mark.parametrize("recipe", ["static_pretrain", "multiview", "monocular"])
+def test_sizes_with_a_perceptual_weight_have_whole_patches(recipe: str, size: str) -> None:
+    config = RECIPES[recipe](size)  # type: ignore[arg-type]
+    data, smallest = config.data, min(stage.target_px for stage in config.train.stages)
     assert config.weights.part_perceptual > 0.0
-    assert config.data.rays % config.data.patch_px**2 == 0
-    assert config.data.patch_px > 0
+    assert 0 < data.patch_px <= smallest
+    assert data.rays % data.patch_px**2 == 0
+
+
+@pytest.mark.parametrize("recipe", RECIPES)
+def test_nano_has_no_perceptual_term(recipe: str) -> None:
+    config = RECIPES[recipe]("nano")
+    assert config.weights.part_perceptual == 0.0
+    assert config.data.patch_px == 0

@@ -6,19 +6,22 @@ from pathlib import Path
 import pytest
 import torch
 
+import model.training.session
 from artgen.core.errors import UsageError
 from artgen.progress import silent
 from model.batch import Batch
 from model.data.kept import Kept
-from model.data.library import packed
+from model.data.library import packed, write_library
 from model.data.loader import batches
 from model.data.soup_source import SoupSource
 from model.network.art import Art
+from model.network.encoders.efflite import EfficientNetLite0
 from model.training.art_file import ModelCard, load_art, save_art
 from model.training.checkpoint import found_checkpoints, read_checkpoint
 from model.training.log import read_lines
 from model.training.material import Material, make_missing, opened
 from model.training.objective import Objective
+from model.training.perceptual import FeatureDistance
 from model.training.picture import picture_of
 from model.training.recipes import articulation_only
 from model.training.schedule import moment_at
@@ -66,6 +69,62 @@ def test_a_session_goes_on_to_the_same_bytes_and_refuses_other_settings(
         assert torch.equal(value, weights[name])
     with pytest.raises(UsageError, match=r"config\.data\.seed 0, now 1"):
         session(material, tmp_path, changed(TINY, ["data.seed=1"]))
+
+
+def test_other_objects_at_the_same_place_do_not_resume(tmp_path: Path) -> None:
+    """Paths alone were compared: a run went on with whatever lay there."""
+    material = laptop_material(tmp_path)
+    short = changed(TINY, ["train.steps=1"])
+    session(material, tmp_path / "run", short)
+    session(laptop_material(tmp_path), tmp_path / "run", short)
+    assert material.library is not None
+    write_library(material.library, packed(laptops()[::-1]))
+    with pytest.raises(UsageError, match="other data or weights: library"):
+        session(material, tmp_path / "run", short)
+
+
+def test_other_first_weights_do_not_resume(tmp_path: Path, material: Material) -> None:
+    short = changed(TINY, ["train.steps=1"])
+    start = session(material, tmp_path / "first", short)
+    session(material, tmp_path / "run", short, start=start)
+    with pytest.raises(UsageError, match="other data or weights: start .*, now None"):
+        session(material, tmp_path / "run", short)
+
+
+PERCEPTUAL = changed(
+    TINY,
+    [
+        *("data.patch_px=4", "weights.part_perceptual=0.5", "train.perceptual=[0.0,0.0]"),
+        *("train.steps=1", "train.picture_every=0"),
+    ],
+)
+
+
+def test_a_run_goes_on_with_the_perceptual_term_that_it_began_with(
+    tmp_path: Path, material: Material, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whether the term was there depended on an installed package, and nothing recorded it."""
+    measure = FeatureDistance(EfficientNetLite0())
+    with monkeypatch.context() as patched:
+        patched.setattr(model.training.session, "packaged_distance", lambda: measure)
+        session(material, tmp_path, PERCEPTUAL)
+    assert read_lines(tmp_path / "log.jsonl")[0]["part_perceptual"] > 0.0
+    monkeypatch.setattr(model.training.session, "packaged_distance", lambda: None)
+    with pytest.raises(UsageError, match="perceptual True, now False"):
+        session(material, tmp_path, PERCEPTUAL)
+
+
+def test_a_term_that_is_left_out_is_told_once(
+    tmp_path: Path,
+    material: Material,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    monkeypatch.setattr(model.training.session, "packaged_distance", lambda: None)
+    session(material, tmp_path, PERCEPTUAL)
+    (told,) = [line for line in caplog.messages if "above 0" in line]
+    assert "part_perceptual (its network is absent" in told
+    assert "part_perceptual" not in read_lines(tmp_path / "log.jsonl")[0]
 
 
 def test_a_session_begins_with_given_weights(tmp_path: Path, material: Material) -> None:
