@@ -9,6 +9,8 @@ import torch
 
 from artgen.core.errors import UsageError
 from artgen.core.stream import Stream
+from artgen.dataset.members import EncodedSample
+from artgen.dataset.shard import write_shard
 from model.batch import Articulation
 from model.data.library import write_library
 from model.data.scene import drawn_scene
@@ -16,8 +18,9 @@ from model.data.soup_source import SoupSource
 from model.data.truth import articulation as articulation_of
 from model.evaluation.cli import evaluate
 from model.evaluation.held_out import flips
-from model.evaluation.network_run import NetworkRun, shown_to, training_items
+from model.evaluation.network_run import NetworkRun, run_key, shown_to, training_items
 from model.evaluation.predictors import counted_from_first, with_more_states
+from model.evaluation.score import Protocol
 from model.network.art import Art
 from model.training.art_file import ModelCard, save_art
 from model.training.recipes import RECIPES
@@ -137,3 +140,16 @@ def test_baselines_learn_from_objects_of_all_categories() -> None:
     source = SoupSource(library(), slots=6)
     items = training_items(source, dataclasses.replace(CONFIG, batch=1), 3)
     assert {layout.category for layout, _ in items} > {"cabinet"}
+
+
+def test_records_depend_on_what_shards_hold(tmp_path: Path) -> None:
+    """Records of an older packing were kept: of a folder, the path alone was looked at."""
+
+    def key(pixel: bytes) -> str:
+        sample = EncodedSample(asset_id="laptop_000000", members=(("s0.v0.rgba.png", pixel),))
+        write_shard(tmp_path / "test-000000.tar", [sample])
+        asked = NetworkRun(**{**ASKED, "truth": tmp_path, "split": "test"})
+        return run_key(asked, Protocol())
+
+    assert key(b"a") == key(b"a")
+    assert key(b"a") != key(b"b")
