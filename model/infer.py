@@ -59,16 +59,30 @@ def check_parts(config: Config, parts: int) -> None:
 
 
 def check_images(config: Config, images: Images) -> None:
-    """Raise ModelError unless states and views are as many as the network can read."""
+    """Raise ModelError unless states and views are such as the network was trained on."""
     states, views = images.rgb_BTV3HW.shape[1:3]
-    most, trained = config.model.images.states, config.data.views
-    if not 1 <= states <= most:
+    least = config.data.views
+    check_states(config, states)
+    if states > config.data.states:
         raise ModelError(
-            f"the images show {states} states, this checkpoint reads up to {most}; leave some out, "
-            "or train with more states"
+            f"the images show {states} states, this checkpoint was trained on {config.data.states} "
+            "and has learned nothing of further ones; ask about so many at a time, as `artgen "
+            "reconstruct` does"
         )
-    if views < trained:
+    if views < least:
         raise ModelError(
-            f"the images show {views} views a state, this checkpoint was trained on {trained}; add "
+            f"the images show {views} views a state, this checkpoint was trained on {least}; add "
             "views, or use a checkpoint for fewer"
+        )
+
+
+def check_states(config: Config, states: int) -> None:
+    """Raise ModelError where states are fewer than the network was trained on."""
+    least = config.data.states
+    if states < least:
+        raise ModelError(
+            f"the images show {states} state{'' if states == 1 else 's'}, this checkpoint was "
+            f"trained on {least}; how parts move is seen between states alone: give {least} or "
+            "more, each in its own state (`state` in the camera file, or state_0/, state_1/ in the "
+            "images' names)"
         )

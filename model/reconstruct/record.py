@@ -6,10 +6,10 @@ from typing import Any
 import torch
 
 from model.batch import PRISMATIC
-from model.network.prediction import TYPE_OF_LOGIT, Prediction
+from model.network.prediction import TYPE_OF_LOGIT
 from model.reconstruct.assemble import Assembled
 from model.reconstruct.films import Reprojection
-from model.reconstruct.sight import Sphere
+from model.reconstruct.search import Finding
 
 SCHEMA = "artgen-prediction/1"
 WORDS = ("fixed", "revolute", "prismatic")
@@ -17,17 +17,20 @@ DIGITS = 6
 
 
 def record(
-    prediction: Prediction,
-    sphere: Sphere,
+    finding: Finding,
     assembled: Assembled,
     seen: Sequence[Reprojection],
     *,
     states: Sequence[int],
-    views: Sequence[int],
     checkpoint: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Lengths in radii and motions in shares of a turn or of the diameter, as the network states
-    them; the sphere turns them into m."""
+    them; the sphere turns them into m.
+
+    Args:
+        states: numbers of all states of the capture.
+    """
+    prediction, sphere = finding.prediction, finding.sphere
     articulation = prediction.articulation
     chance = torch.softmax(prediction.type_logits_BP2[0].float(), dim=-1)
     revolute = 1 - TYPE_OF_LOGIT.index(PRISMATIC)
@@ -59,7 +62,8 @@ def record(
             "object_from_center_m": _rounded(assembled.shift.tolist()),
         },
         "checkpoint": checkpoint,
-        "views": list(views),
+        "views": list(finding.views),
+        "shown_states": [states[place] for place in finding.states],
         "slots": slots,
         "states": [
             {"state": number, "joints": {name: round(q, DIGITS) for name, q in joints.items()}}

@@ -1,6 +1,5 @@
 """From a capture and a checkpoint to a folder: bundle, films, pictures, the prediction as JSON."""
 
-import dataclasses
 import re
 import tempfile
 import time
@@ -18,29 +17,24 @@ from artgen.textures.library import TextureLibrary
 from artgen.validate import Report, validate_bundle
 from artgen.worker import BlenderWorker
 from model.config import Config
-from model.infer import predict
-from model.network.art import Art
-from model.network.prediction import Prediction
 from model.reconstruct import films
-from model.reconstruct.agreement import Silhouettes, agreeing, agreement, silhouettes
+from model.reconstruct.agreement import agreeing
 from model.reconstruct.assemble import Assembled, Wishes, assemble
 from model.reconstruct.capture import Capture, read_capture
-from model.reconstruct.choice import Choice, chosen_views
+from model.reconstruct.choice import chosen_views
 from model.reconstruct.draw import Painter
-from model.reconstruct.guess import object_guess
 from model.reconstruct.hull import VisualHull, check_cameras
 from model.reconstruct.masks import found_segmenter
 from model.reconstruct.photo import Photo, PhotoColors
 from model.reconstruct.record import record
 from model.reconstruct.refine import refined
 from model.reconstruct.rig import read_rig
+from model.reconstruct.search import Finding, question, searched, told_of
 from model.reconstruct.sight import Sphere, in_object, network_images, sphere_of
 from model.reconstruct.skin import PaintOver
 from model.reconstruct.surfaces import field_guess
 from model.training.art_file import load_art
 
-JUDGED_PX = 48
-"""Width and height of the silhouettes that predictions are judged by."""
 BUNDLE = "bundle"
 TURNTABLE = "turntable.gif"
 ARTICULATION = "articulation.gif"
@@ -132,13 +126,16 @@ def asset_name(images: Path) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Made:
-    """An object and what it was made of."""
+    """An object and what it was made of.
+
+    Attributes:
+        told: what a user should know of the input, a sentence each.
+    """
 
     capture: Capture
-    sphere: Sphere
-    choice: Choice
+    finding: Finding
+    told: tuple[str, ...]
     config: Config
-    prediction: Prediction
     assembled: Assembled
 
 
@@ -168,12 +165,10 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
             seen = filmed.result()
         ious.extend(own.iou for own in seen)
         told = record(
-            made.prediction,
-            made.sphere,
+            made.finding,
             made.assembled,
             seen,
             states=made.capture.states,
-            views=made.choice.views,
             checkpoint=told_checkpoint(order.checkpoint, made.config),
         )
         write_json(folder / PREDICTION, told)
@@ -186,7 +181,7 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
     return Outcome(
         report=report[0],
         assembled=made.assembled,
-        told=made.choice.told,
+        told=made.told,
         seconds=watch.seconds,
         ious=tuple(ious),
     )
@@ -196,13 +191,12 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     """What the network predicts of the images, as an object; nothing is written."""
     art, config, _ = load_art(order.checkpoint)
     watch.lap("checkpoint")
-    capture, sphere = seen_object(order)
-    choice = chosen_views(capture, sphere, config.data)
-    seen = silhouettes(
-        network_images(capture, sphere, size=JUDGED_PX, background="white"), sphere.radius_m
-    )
+    capture, first = seen_object(order)
+    asked = question(art, config, capture, first, parts=order.parts)
+    choice = chosen_views(capture, first, config.data)
     watch.lap("images")
-    views, prediction = best_prediction(art, config, order, capture, sphere, choice, seen)
+    finding = searched(asked, choice)
+    prediction, sphere, seen = finding.prediction, finding.sphere, finding.seen
     watch.lap("network")
     field = None if prediction.planes_BP6CHW is None else prediction.field()
     guess = field_guess(
@@ -228,38 +222,11 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     watch.lap("assembly")
     return Made(
         capture=capture,
-        sphere=sphere,
-        choice=dataclasses.replace(choice, views=views),
+        finding=finding,
+        told=(*choice.told, *told_of(finding, capture)),
         config=config,
-        prediction=prediction,
         assembled=assembled,
     )
-
-
-def best_prediction(
-    art: Art,
-    config: Config,
-    order: Order,
-    capture: Capture,
-    sphere: Sphere,
-    choice: Choice,
-    seen: Silhouettes,
-) -> tuple[tuple[int, ...], Prediction]:
-    """The views among those of a choice, and what the network makes of them, whose boxes, moved as
-    predicted, agree best with all silhouettes."""
-    found = []
-    for views in (choice.views, *choice.others):
-        images = network_images(
-            capture.only(views),
-            sphere,
-            size=config.data.input_px,
-            background=config.data.background,
-        )
-        said = predict(art, config, images, parts=order.parts)
-        boxes = object_guess(said.articulation, 0, {}, radius=sphere.radius_m)
-        found.append((agreement(boxes, seen), views, said))
-    _, views, prediction = max(found, key=lambda own: own[0])
-    return views, prediction
 
 
 def seen_object(order: Order) -> tuple[Capture, Sphere]:
@@ -325,7 +292,7 @@ def write_films(
     folder: Path, made: Made, painter: Painter, *, films_too: bool
 ) -> list[films.Reprojection]:
     """Turntable, articulation, and inputs beside reprojections, which are returned."""
-    seen = reprojections(made.capture, made.sphere, made.assembled, size=films.SIDE)
+    seen = reprojections(made.capture, made.finding.sphere, made.assembled, size=films.SIDE)
     if films_too:
         obj = made.assembled.object
         write_bytes(folder / TURNTABLE, films.turntable(obj, painter))

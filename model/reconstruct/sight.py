@@ -1,5 +1,6 @@
 """From a capture to what the network sees: the object's sphere, square crops, cameras in radii."""
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -77,6 +78,13 @@ def network_images(capture: Capture, sphere: Sphere, *, size: int, background: s
         intrinsics_BTV33=torch.tensor(intrinsics, dtype=torch.float32)[None],
         camera_from_world_BTV44=torch.tensor(np.array(poses), dtype=torch.float32)[None],
     )
+
+
+def reposed(images: Images, capture: Capture, sphere: Sphere) -> Images:
+    """The images of a whole capture with their cameras about another sphere."""
+    poses = [[in_radii(pose, sphere) for pose in row] for row in capture.camera_from_world]
+    told = torch.tensor(np.array(poses), dtype=torch.float32)[None]
+    return dataclasses.replace(images, camera_from_world_BTV44=told)
 
 
 def in_radii(camera_from_world: Floats, sphere: Sphere) -> Floats:

@@ -1,5 +1,7 @@
 """What the network is not made for is told before it runs."""
 
+import dataclasses
+
 import pytest
 import torch
 
@@ -44,11 +46,40 @@ def test_more_parts_than_slots_are_refused(untrained: tuple[Art, Config]) -> Non
             predict(art, config, seen, parts=parts)
 
 
-def test_too_many_states_are_refused(untrained: tuple[Art, Config]) -> None:
+def test_too_few_states_are_refused(untrained: tuple[Art, Config]) -> None:
+    """One state passed without a word, and a joint that nobody saw move came out."""
     art, config = untrained
-    states = config.model.images.states + 1
-    with pytest.raises(ModelError, match=f"show {states} states, this checkpoint reads up to"):
+    seen = images(config, states=1, views=config.data.views)
+    with pytest.raises(
+        ModelError, match=r"show 1 state, this checkpoint was trained on 2; .* give 2"
+    ):
+        predict(art, config, seen, parts=2)
+
+
+def test_states_that_were_not_trained_are_refused(untrained: tuple[Art, Config]) -> None:
+    """Also where the table has vectors for them, about which nothing was learned."""
+    art, config = untrained
+    states = config.data.states + 1
+    roomy = dataclasses.replace(config.model.images, states=states)
+    config = dataclasses.replace(config, model=dataclasses.replace(config.model, images=roomy))
+    with pytest.raises(ModelError, match=f"show {states} states, this checkpoint was trained on 2"):
         predict(art, config, images(config, states=states, views=config.data.views), parts=2)
+
+
+def test_a_network_for_three_states_reads_three() -> None:
+    torch.manual_seed(0)
+    config = articulation_only(RECIPES["debug"]("nano"))
+    model = dataclasses.replace(
+        config.model, images=dataclasses.replace(config.model.images, states=3)
+    )
+    config = dataclasses.replace(
+        config, model=model, data=dataclasses.replace(config.data, states=3)
+    )
+    art = Art(config.model).eval()
+    found = predict(art, config, images(config, states=3, views=config.data.views), parts=2)
+    assert found.articulation.motion_BTP.shape[1] == 3
+    with pytest.raises(ModelError, match="show 2 states, this checkpoint was trained on 3"):
+        predict(art, config, images(config, states=2, views=config.data.views), parts=2)
 
 
 def test_too_few_views_are_refused(untrained: tuple[Art, Config]) -> None:

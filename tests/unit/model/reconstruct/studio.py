@@ -1,11 +1,13 @@
 """Captures of a reconstructed object, drawn by our own painter: images, masks and cameras."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
+from artgen.articulation.types import State
 from artgen.core.camera import Camera, framed, orbit_direction
 from artgen.core.jsonio import write_json
 from artgen.core.mesh import Floats
@@ -33,12 +35,14 @@ def cameras(points: Floats, *, size: int = SIZE) -> list[Camera]:
     ]
 
 
-def photographed(done: Assembled, folder: Path, *, size: int = SIZE) -> Path:
+def photographed(
+    done: Assembled, folder: Path, *, size: int = SIZE, states: Sequence[State] = STATES
+) -> Path:
     """A folder with `state_T/view_V.png` and `cameras.json`; the world is the object frame."""
     painter = Painter(done.object, done.color, dim=1.0)
-    points = np.concatenate([painter.points(state) for state in STATES])
+    points = np.concatenate([painter.points(state) for state in states])
     views = []
-    for t, state in enumerate(STATES):
+    for t, state in enumerate(states):
         (folder / f"state_{t}").mkdir(parents=True)
         for v, camera in enumerate(cameras(points, size=size)):
             picture = painter.paint(state, camera.intrinsics, camera.camera_from_world, camera.size)

@@ -13,10 +13,12 @@ from artgen.export import read_bundle
 from model.config import Config
 from model.network.art import Art
 from model.reconstruct import cli as command
+from model.reconstruct.assemble import Assembled
 from model.reconstruct.cli import Reconstruct, ordered, shipped_checkpoint
-from model.reconstruct.run import STAGES, asset_name, reconstruct
+from model.reconstruct.run import STAGES, Stopwatch, asset_name, made_object, reconstruct
 from model.training.art_file import ModelCard, save_art
 from model.training.recipes import RECIPES, articulation_only
+from tests.unit.model.reconstruct.studio import STATES, photographed
 
 
 def untrained(path: Path, config: Config) -> Path:
@@ -63,6 +65,36 @@ def test_the_folder_holds_bundle_films_and_prediction(
         assert getattr(film, "n_frames", 1) == 24
     with Image.open(out / "reprojection.png") as sheet:
         assert sheet.size == (4 * (2 * 256 + 2), 2 * 256)
+
+
+def test_three_states_are_read_by_a_network_for_two(
+    perfect: Assembled, boxes: Path, tmp_path: Path
+) -> None:
+    """It was trained on two, and its table has two: three ended the command."""
+    states = (*STATES, {"part_1_joint": 0.0, "part_2_joint": 0.3})
+    images = photographed(perfect, tmp_path / "three", states=states, size=64)
+    order = ordered(Reconstruct(images=images, checkpoint=boxes, parts=3, out=tmp_path / "out"))
+    made = made_object(order, Stopwatch(lambda stage: None))
+    assert made.finding.prediction.articulation.motion_BTP.shape[1] == 3
+    assert made.finding.states in ((0, 1), (0, 2))
+    assert len(made.assembled.states) == 3
+    (told,) = made.told
+    assert told.startswith("the network reads 2 states at a time: boxes and joints")
+
+
+def test_one_state_is_refused(photographs: Path, boxes: Path, tmp_path: Path) -> None:
+    """A lid with a way of 0.48 came out of a laptop that nobody had moved."""
+    stated = json.loads((photographs / "cameras.json").read_text())
+    stated["views"] = stated["views"][:4]
+    cameras = tmp_path / "one.json"
+    cameras.write_text(json.dumps(stated))
+    out = tmp_path / "out"
+    order = ordered(
+        Reconstruct(images=photographs, cameras=cameras, checkpoint=boxes, parts=3, out=out)
+    )
+    with pytest.raises(ModelError, match="show 1 state, this checkpoint was trained on 2"):
+        reconstruct(order, lambda stage: None)
+    assert not out.exists()
 
 
 def test_nothing_is_overwritten(photographs: Path, boxes: Path, tmp_path: Path) -> None:

@@ -1,0 +1,155 @@
+"""What the network is asked about a capture, and which answer counts: the one whose boxes, moved as
+it says, agree best with the silhouettes of all images.
+"""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from model.batch import Images
+from model.config import Config
+from model.infer import check_states, predict
+from model.network.art import Art
+from model.network.prediction import Prediction
+from model.reconstruct.agreement import Silhouettes, agreement, silhouettes
+from model.reconstruct.capture import Capture
+from model.reconstruct.choice import Choice
+from model.reconstruct.guess import object_guess
+from model.reconstruct.sight import Sphere, network_images, reposed
+from model.reconstruct.states import Answer, completed, state_groups
+
+JUDGED_PX = 48
+"""Width and height of the silhouettes that predictions are judged by."""
+MOST_LEADS = 4
+"""Groups of states whose answers are completed and compared; all others only complete them."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Question:
+    """A capture as a network reads it, to be asked about from any sphere; crops are made once.
+
+    Attributes:
+        parts: how many, base included; None asks the network.
+        about: the sphere that images and silhouettes are about.
+        images: all states and views at the network's size.
+        seen: the silhouettes of all images.
+    """
+
+    art: Art
+    config: Config
+    parts: int | None
+    capture: Capture
+    about: Sphere
+    images: Images
+    seen: Silhouettes
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Finding:
+    """An answer, completed to all states.
+
+    Attributes:
+        agreement: mean IoU of its boxes with all silhouettes.
+        views: that the network was shown.
+        states: places in the capture of those that it was shown.
+        sphere: that positions were divided by.
+        seen: the silhouettes about that sphere.
+    """
+
+    agreement: float
+    views: tuple[int, ...]
+    states: tuple[int, ...]
+    sphere: Sphere
+    prediction: Prediction
+    seen: Silhouettes
+
+
+def question(
+    art: Art, config: Config, capture: Capture, sphere: Sphere, *, parts: int | None
+) -> Question:
+    """What a network can be asked about a capture.
+
+    Raises:
+        ModelError: it has fewer states than the network was trained on.
+    """
+    check_states(config, len(capture.states))
+    images = network_images(
+        capture, sphere, size=config.data.input_px, background=config.data.background
+    )
+    judged = network_images(capture, sphere, size=JUDGED_PX, background="white")
+    return Question(
+        art=art,
+        config=config,
+        parts=parts,
+        capture=capture,
+        about=sphere,
+        images=images,
+        seen=silhouettes(judged, sphere.radius_m),
+    )
+
+
+def searched(asked: Question, choice: Choice) -> Finding:
+    """The best answer about all sets of views that a choice offers.
+
+    Raises:
+        ModelError: the network cannot be asked so.
+    """
+    return best([found(asked, asked.about, views) for views in (choice.views, *choice.others)])
+
+
+def told_of(finding: Finding, capture: Capture) -> tuple[str, ...]:
+    """What a user should know of how an answer was found."""
+    told = []
+    if len(finding.states) < len(capture.states):
+        shown = ", ".join(str(capture.states[place]) for place in finding.states)
+        told.append(
+            f"the network reads {len(finding.states)} states at a time: boxes and joints are what "
+            f"it says of the states {shown}; in every other state it told how far parts are open"
+        )
+    return tuple(told)
+
+
+def found(asked: Question, sphere: Sphere, views: Sequence[int]) -> Finding:
+    """The best that the network says about a sphere when it is shown some views."""
+    chosen = list(views)
+    images = reposed(asked.images, asked.capture, sphere).mapped(lambda own: own[:, :, chosen])
+    groups = state_groups(len(asked.capture.states), asked.config.data.states)
+    answers = [Answer(states=group, prediction=_said(asked, images, group)) for group in groups]
+    seen = seen_from(asked, sphere)
+    places = np.linspace(0, len(answers) - 1, min(len(answers), MOST_LEADS)).astype(int)
+    findings = []
+    for place in places.tolist():
+        prediction = completed(answers[place], answers, len(asked.capture.states))
+        boxes = object_guess(prediction.articulation, 0, {}, radius=sphere.radius_m)
+        findings.append(
+            Finding(
+                agreement=agreement(boxes, seen),
+                views=tuple(views),
+                states=groups[place],
+                sphere=sphere,
+                prediction=prediction,
+                seen=seen,
+            )
+        )
+    return best(findings)
+
+
+def best(findings: Sequence[Finding]) -> Finding:
+    """The one that agrees best; of equals the first."""
+    return max(findings, key=lambda own: own.agreement)
+
+
+def _said(asked: Question, images: Images, states: Sequence[int]) -> Prediction:
+    index = torch.tensor(list(states))
+    return predict(
+        asked.art, asked.config, images.mapped(lambda own: own[:, index]), parts=asked.parts
+    )
+
+
+def seen_from(asked: Question, sphere: Sphere) -> Silhouettes:
+    """The silhouettes with another sphere's middle for zero."""
+    shift = (asked.about.center - sphere.center) * sphere.meters
+    return dataclasses.replace(asked.seen, origins=asked.seen.origins + shift)
