@@ -150,9 +150,10 @@ def urdf(argv: Sequence[str]) -> int:
 def static(argv: Sequence[str]) -> int:
     """Mesh files to bundles without joints: 0 all usable, 1 some refused."""
     command = tyro.cli(IngestStatic, args=list(argv), prog="artgen ingest static")
-    if unknown := [word for word in command.extensions if word.lower() not in MESHES]:
+    extensions = tuple(word.lower() for word in command.extensions)
+    if unknown := [word for word in extensions if word not in MESHES]:
         raise UsageError(f"--extensions {unknown[0]} is not read; known: {', '.join(MESHES)}")
-    found = found_files(command.paths, command.extensions)
+    found = found_files(command.paths, extensions)
     options = dataclasses.replace(checked_options(command), up=command.up)
     return run(command, "static", found, options)
 

@@ -9,6 +9,9 @@ from artgen.ingest.task import Kind, slug
 
 MARKS = ("mobility_v2.json", "mobility.urdf", "meta.json", "result.json")
 """A folder with one of these is an object's, or claims to be."""
+ARCHIVES = (
+    ".zip", ".tar", ".gz", ".tgz", ".bz2", ".tbz", ".xz", ".txz", ".zst", ".7z", ".rar",
+)  # fmt: skip
 PREFIX = {"partnet": "pm", "urdf": "urdf", "static": "static"}
 
 
@@ -40,13 +43,26 @@ def _folders(path: Path) -> Iterator[Found]:
         yield Found(path=path)
     else:
         inner = [p for p in sorted(path.iterdir()) if not p.name.startswith(".")]
-        for place in inner:
-            if place.is_dir() and place.is_symlink() and not _within(place, path):
-                yield Found(path=place, problem=f"a link that leaves {path}; name it on its own")
-            elif place.is_dir() or place.suffix.lower() in (".zip", ".tar", ".gz", ".7z"):
-                yield Found(path=place, problem=None if place.is_dir() else _no_folder(place))
-        if not inner:
-            yield Found(path=path, problem="the folder is empty")
+        found = [entry for place in inner if (entry := _claimed(place, path)) is not None]
+        nothing = Found(path=path, problem=f"holds no object folder (with {MARKS[0]})")
+        yield from found or [nothing]
+
+
+def _claimed(place: Path, path: Path) -> Found | None:
+    """What lies in a folder of many: folders, and what should have been some; None for other files
+    that may lie there."""
+    if place.is_dir():
+        away = place.is_symlink() and not _within(place, path)
+        problem = f"a link that leaves {path}; name it on its own" if away else None
+        return Found(path=place, problem=problem)
+    if _broken(place) or place.suffix.lower() in ARCHIVES:
+        return Found(path=place, problem=_no_folder(place))
+    return None
+
+
+def _broken(place: Path) -> bool:
+    """Whether it is a link that leads nowhere."""
+    return place.is_symlink() and not place.exists()
 
 
 def _marked(path: Path) -> bool:
@@ -59,7 +75,7 @@ def _within(place: Path, root: Path) -> bool:
 
 def _no_folder(path: Path) -> str:
     if not path.exists():
-        return "does not exist"
+        return "is a link that leads nowhere" if path.is_symlink() else "does not exist"
     return f"is a file ({path.suffix or 'no suffix'}), not a folder; unpack it first"
 
 
@@ -81,11 +97,10 @@ def found_files(
 
 def _files(path: Path, suffixes: Sequence[str], root: Path | None) -> Iterator[Found]:
     if path.is_dir():
-        inner = [p for p in sorted(path.rglob("*")) if p.suffix.lower() in suffixes and p.is_file()]
+        named = [p for p in sorted(path.rglob("*")) if p.suffix.lower() in suffixes]
+        inner = [place for place in named if place.is_file() or _broken(place)]
         for place in inner:
-            away = not _within(place, path)
-            problem = f"a link that leaves {path}" if away else None
-            yield Found(path=place, problem=problem, root=root or path)
+            yield Found(path=place, problem=_astray(place, path), root=root or path)
         if not inner:
             yield Found(path=path, problem=f"holds no {', '.join(suffixes)}")
     elif not path.exists():
@@ -94,6 +109,12 @@ def _files(path: Path, suffixes: Sequence[str], root: Path | None) -> Iterator[F
         yield Found(path=path, problem=f"is no {', '.join(suffixes)}")
     else:
         yield Found(path=path, root=root)
+
+
+def _astray(place: Path, path: Path) -> str | None:
+    if _broken(place):
+        return "is a link that leads nowhere"
+    return None if _within(place, path) else f"a link that leaves {path}"
 
 
 def _once(entries: Iterator[Found]) -> list[Found]:
@@ -119,4 +140,5 @@ def named(found: Sequence[Found], kind: Kind) -> list[tuple[str, Found]]:
 
 def _own_name(path: Path) -> str:
     """A folder's name; of a file, with that of its folder, as many files are called alike."""
-    return f"{path.parent.name}_{path.stem}" if path.is_file() else path.name
+    own = path.absolute()
+    return f"{own.parent.name}_{own.stem}" if own.is_file() else own.name

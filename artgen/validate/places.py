@@ -24,15 +24,14 @@ def inside(root: Path, base: Path, text: str) -> Path:
         package, _, text = text.removeprefix("package://").partition("/")
     elif text.startswith("file://"):
         text = text.removeprefix("file://")
-    if not text or "\0" in text or ":" in text or PurePosixPath(text).is_absolute():
+    odd = any(letter in package + text for letter in "\0:")
+    if not text or odd or PurePosixPath(text).is_absolute():
         raise ExportError(f"{text!r} is no relative path; name files from the asset's folder")
     text = text.replace("\\", "/")
     bases = [*_packages(root, base, package)] if package else [base]
-    place = next((own / text for own in bases if (own / text).exists()), bases[0] / text)
-    try:
-        found = place.resolve(strict=True)
-    except (OSError, RuntimeError) as error:
-        raise ExportError(f"{text!r} does not exist") from error
+    found = next(filter(None, (_resolved(own / text) for own in bases)), None)
+    if found is None:
+        raise ExportError(f"{text!r} does not exist")
     if not found.is_relative_to(root.resolve()):
         raise ExportError(
             f"{text!r} leads out of the asset's folder {root.absolute().name!r}; commands for URDF "
@@ -41,6 +40,14 @@ def inside(root: Path, base: Path, text: str) -> Path:
     if not found.is_file():
         raise ExportError(f"{text!r} is no file")
     return found
+
+
+def _resolved(place: Path) -> Path | None:
+    """Where a path leads, links followed; None where nothing is there."""
+    try:
+        return place.resolve(strict=True)
+    except (OSError, RuntimeError):  # Also names that are too long, and links in a circle.
+        return None
 
 
 def _packages(root: Path, base: Path, name: str) -> Iterator[Path]:

@@ -1,11 +1,12 @@
-"""What users may say to `artgen ingest`."""
+"""What users may say to `artgen ingest`, and what they are told."""
 
+import json
 from pathlib import Path
 
 import pytest
 
 from artgen.core.errors import UsageError
-from artgen.ingest.cli import read_rests
+from artgen.ingest.cli import partnet, read_rests, static
 from artgen.ingest.options import GivenRest
 
 
@@ -20,3 +21,23 @@ def test_a_rest_that_is_no_finite_number_is_refused(q: str, tmp_path: Path) -> N
     (tmp_path / "r.json").write_text(f'{{"45940": {{"3": {q}}}}}')
     with pytest.raises(UsageError, match=r"is no finite number.*write"):
         read_rests(tmp_path / "r.json")
+
+
+def test_a_run_that_found_nothing_is_no_success(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """`0 objects`, exit code 0."""
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data/readme.txt").write_text("")
+    assert partnet([str(tmp_path / "data"), "--out", str(tmp_path / "out")]) == 1
+    assert "holds no object folder" in capsys.readouterr().out
+
+
+def test_extensions_may_be_written_large(tmp_path: Path) -> None:
+    """`--extensions .GLB` found nothing. This file is none, so that no process is started."""
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data/a.GLB").symlink_to(tmp_path / "nowhere")
+    words = [str(tmp_path / "data"), "--extensions", ".GLB", "--out", str(tmp_path / "out")]
+    assert static(words) == 1
+    report = json.loads((tmp_path / "out/ingest_report.json").read_text())
+    assert [entry["message"] for entry in report["entries"]] == ["is a link that leads nowhere"]

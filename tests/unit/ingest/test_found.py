@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from artgen.core.errors import UsageError
-from artgen.ingest.found import found_files, found_folders, named
+from artgen.ingest.found import Found, found_files, found_folders, named
 
 
 def folder(root: Path, name: str) -> Path:
@@ -29,6 +29,41 @@ def test_a_folder_of_many_is_looked_through_and_nothing_is_passed_over(tmp_path:
     assert "a link that leaves" in found["away"]
     assert found["45940"] is None
     assert found["empty"] is None
+
+
+def test_a_folder_without_an_object_is_told(tmp_path: Path) -> None:
+    """`0 objects` was a success: a mistyped path, or a folder of archives, looked finished."""
+    data = tmp_path / "data"
+    data.mkdir()
+    for _ in range(2):
+        (entry,) = found_folders([data])
+        assert entry == Found(path=data, problem="holds no object folder (with mobility_v2.json)")
+        (data / "readme.txt").write_text("")
+
+
+@pytest.mark.parametrize("suffix", ["zip", "tar", "tar.gz", "tgz", "bz2", "xz", "7z", "RAR"])
+def test_archives_are_told_whatever_packed_them(suffix: str, tmp_path: Path) -> None:
+    (tmp_path / f"45940.{suffix}").write_bytes(b"")
+    (entry,) = found_folders([tmp_path])
+    assert "unpack it first" in entry.problem
+
+
+def test_links_that_lead_nowhere_are_told(tmp_path: Path) -> None:
+    for name in ("45940", "gone.urdf"):
+        (tmp_path / name).symlink_to(tmp_path / "nowhere")
+    told = "is a link that leads nowhere"
+    assert [e.problem for e in found_folders([tmp_path])] == [told, told]
+    assert [(e.path.name, e.problem) for e in found_files([tmp_path], (".urdf",))] == [
+        ("gone.urdf", told)
+    ]
+
+
+def test_the_folder_that_one_stands_in_has_a_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was `pm_`, which other runs share."""
+    monkeypatch.chdir(folder(tmp_path, "45940"))
+    assert [name for name, _ in named(found_folders([Path()]), "partnet")] == ["pm_45940"]
 
 
 def test_an_object_named_twice_is_one(tmp_path: Path) -> None:

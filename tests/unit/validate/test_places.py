@@ -32,6 +32,9 @@ def put(path: Path) -> Path:
         ("ws", "package://pkg//etc/passwd", None),
         ("ws", "package://pkg", None),
         ("ws", "package://pkg/b\0.stl", None),
+        ("ws", "package://pkg\0/b.stl", None),
+        ("ws", f"package://pkg/{'b' * 300}.stl", None),
+        ("ws", f"package://{'p' * 300}/b.stl", None),
     ],
 )
 def test_packages_are_folders_above_or_beside_and_never_outside(
