@@ -45,6 +45,8 @@ def read_meshes(obj: ForeignObject) -> ReadMeshes:
                 soups[shape] = shape.read()
             except (ArtgenError, OSError, MemoryError) as error:
                 dropped.append(f"{part.name}, {shape.label}: {error}")
+            except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+                dropped.append(f"{part.name}, {shape.label}: it cannot be understood: {error!r}")
     count = sum(len(soup.faces) for soup in soups.values())
     if count > MOST_TRIANGLES:
         raise IngestError(f"it has {count} triangles, at most {MOST_TRIANGLES}; decimate it")

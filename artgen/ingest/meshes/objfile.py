@@ -44,7 +44,7 @@ def read_obj_soup(path: Path, root: Path) -> Soup:
         vertices = _table(lines.v, 3)
         texture = _table(lines.vt, 2)
         corners, owner = _corners(lines)
-    except (ValueError, IndexError) as error:
+    except (ValueError, IndexError, OverflowError) as error:
         raise IngestError(f"{path.name}: a line is malformed ({error})") from error
     if not np.isfinite(vertices).all():
         raise IngestError(f"{path.name}: a vertex is not finite")
@@ -63,19 +63,26 @@ def read_obj_soup(path: Path, root: Path) -> Soup:
 
 def _sorted_lines(text: str) -> _Lines:
     lines = _Lines()
-    for line in text.replace("\\\n", " ").splitlines():
-        if line.startswith("v "):
-            lines.v.append(line[2:])
-        elif line.startswith("vt "):
-            lines.vt.append(line[3:])
-        elif line.startswith("f "):
-            lines.f.append(line[2:])
+    for line in text.replace("\r\n", "\n").replace("\\\n", " ").splitlines():
+        key, rest = worded(line)
+        if key == "v":
+            lines.v.append(rest)
+        elif key == "vt":
+            lines.vt.append(rest)
+        elif key == "f":
+            lines.f.append(rest)
             lines.counts.append((len(lines.v), len(lines.vt)))
-        elif line.startswith("usemtl"):
-            lines.uses.append((len(lines.f), line[6:].strip()))
-        elif line.startswith("mtllib"):
-            lines.libraries.append(line[6:].strip())
+        elif key == "usemtl":
+            lines.uses.append((len(lines.f), rest))
+        elif key == "mtllib":
+            lines.libraries.append(rest)
     return lines
+
+
+def worded(line: str) -> tuple[str, str]:
+    """The first word of a line and the rest, whatever blanks lie before and between them."""
+    words = line.split(maxsplit=1)
+    return (words[0], words[1].rstrip()) if len(words) == 2 else ("".join(words), "")
 
 
 def _table(lines: Sequence[str], columns: int) -> Floats:
@@ -147,11 +154,11 @@ def read_mtl(path: Path, root: Path) -> dict[str, Look]:
     found: dict[str, dict[str, str]] = {}
     own: dict[str, str] = {}
     for line in read_capped(path).decode("utf-8", "replace").splitlines():
-        key, _, rest = line.strip().partition(" ")
+        key, rest = worded(line)
         if key == "newmtl":
-            own = found.setdefault(rest.strip(), {})
+            own = found.setdefault(rest, {})
         elif key:
-            own[key] = rest.strip()
+            own[key] = rest
     return {name: _look(stated, path, root) for name, stated in found.items()}
 
 

@@ -35,6 +35,20 @@ def test_faces_are_read_however_they_are_written(faces: str, tmp_path: Path) -> 
     assert soup.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
 
 
+@pytest.mark.parametrize(("old", "new"), [(" ", "\t"), ("\n", "\n  "), ("\n", "\r\n")])
+def test_any_blanks_divide_words(old: str, new: str, tmp_path: Path) -> None:
+    """Tabs, and lines that are set in: `it has no face`."""
+    mtl = "newmtl my_wood\nKd 0.1 0.2 0.3\n"
+    (tmp_path / "m.mtl").write_bytes(mtl.replace(old, new).encode())
+    text = SQUARE + UV + "mtllib m.mtl\nusemtl my_wood\nf 1/1 2/2 3/3\nf 1/1 3/3 \\\n4/4\n"
+    (tmp_path / "m.obj").write_bytes(text.replace(old, new).encode())
+    soup = read_obj_soup(tmp_path / "m.obj", tmp_path)
+    plain = read(tmp_path, text)
+    assert soup.faces.tolist() == [[0, 1, 2], [0, 2, 3]]
+    assert soup.uv.tolist() == plain.uv.tolist()
+    assert soup.looks[soup.look[0]].color == (0.1, 0.2, 0.3)
+
+
 def test_texture_points_go_with_their_corners_and_missing_ones_are_nan(tmp_path: Path) -> None:
     soup = read(tmp_path, SQUARE + UV + "f 1/1 2/2 3/3\nf 1 3 4\n")
     assert soup.uv[0].tolist() == [[0, 0], [1, 0], [1, 1]]
@@ -96,6 +110,10 @@ def test_images_with_blanks_and_behind_options_are_found_none_outside(tmp_path: 
         (SQUARE + "f 1 2 9\n", "not there"),
         (SQUARE + "f 0 1 2\n", "not there"),
         (SQUARE + "f 1 2 x\n", "malformed"),
+        (SQUARE + "f 1 2 99999999999999999999\n", "malformed"),
+        (SQUARE + "f 1 2 -99999999999999999999\n", "malformed"),
+        (SQUARE + "f 1 2 3 99999999999999999999/1\n", "malformed"),
+        (SQUARE + "f\n", "no face"),
         ("v 0 0\nf 1 1 1\n", "malformed"),
         ("v 0 0 inf\nv 0 0 0\nv 1 1 1\nf 1 2 3\n", "not finite"),
         ("\x00\xff binary", "no face"),

@@ -250,6 +250,16 @@ def test_a_missing_annotation_is_named(tmp_path: Path) -> None:
         read_partnet(root)
 
 
+def test_one_odd_mesh_costs_itself_alone(tmp_path: Path) -> None:
+    """A face index beyond 64 bits cost the whole object."""
+    folder = cabinet()
+    folder.texts["original-8"] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n"
+    meshes = read_meshes(read_partnet(folder.write(tmp_path / "1")))
+    (line,) = meshes.dropped
+    assert "original-8.obj: a line is malformed" in line
+    assert len(meshes.soups) == 7
+
+
 def test_links_that_leave_the_folder_are_not_followed(tmp_path: Path) -> None:
     secret = tmp_path / "secret.obj"
     secret.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
