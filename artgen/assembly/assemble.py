@@ -43,6 +43,7 @@ class Assembled:
     """A new object before it is unwrapped and weighed, and what it is made from.
 
     Attributes:
+        datasets: where its parts come from, sorted.
         sources: for each piece of each part where it comes from, as JSON: `base`, `part` (one that
             the template keeps), `front` or `whole`, `handle`, `works`.
         tried: reasons for which something else was taken before.
@@ -58,6 +59,7 @@ class Assembled:
     surfaces: tuple[SurfaceSpec, ...]
     licence: Licence
     donors: tuple[str, ...]
+    datasets: tuple[str, ...]
     sources: tuple[Mapping[str, Any], ...]
     tried: tuple[str, ...]
     seams: Mapping[str, tuple[int, int, int]]
@@ -150,6 +152,7 @@ class _Attempt:
         self.seams: dict[str, tuple[int, int, int]] = {}
         self.licences = [source.licence]
         self.donors = {source.family}
+        self.datasets = {source.dataset}
 
     def object(self, open_before: Mapping[Pair, float]) -> Assembled | None:
         """The object, or None where something does not fit; the plan has then moved on."""
@@ -175,6 +178,7 @@ class _Attempt:
             surfaces=tuple(self.table.surfaces),
             licence=most_restrictive(self.licences),
             donors=tuple(sorted(self.donors)),
+            datasets=tuple(sorted(self.datasets)),
             sources=tuple(self.told),
             tried=tuple(self.plan.tried),
             seams=self.seams,
@@ -294,6 +298,7 @@ class _Attempt:
     def _tell(self, part: str, piece: str, source: Source, *, of: str, **more: object) -> None:
         """Where a piece of a part comes from; its terms and family bind the whole."""
         self.donors.add(source.family)
+        self.datasets.add(source.dataset)
         self.licences.append(source.licence)
         self.told.append(
             {"part": part, "piece": piece, "source": source.id, "of": of,
@@ -319,7 +324,7 @@ def finished(new: Assembled, *, asset_id: str, provenance: Mapping[str, Any]) ->
                 mesh=dataclasses.replace(piece.mesh, atlas=uv),
                 collision=piece.collision,
                 mass=weighed(piece),
-                densities=piece.densities,
+                densities=None if piece.shells else piece.densities,
                 grips=piece.grips,
             )
             for (name, label, piece), uv in zip(new.parts, atlas, strict=True)
@@ -329,6 +334,7 @@ def finished(new: Assembled, *, asset_id: str, provenance: Mapping[str, Any]) ->
         preconditions=new.preconditions,
         provenance={
             **provenance,
+            **_shells(new),
             "template": new.template,
             "donors": new.donors,
             "sources": new.sources,
@@ -337,3 +343,18 @@ def finished(new: Assembled, *, asset_id: str, provenance: Mapping[str, Any]) ->
             "hashes": new.hashes,
         },
     )
+
+
+def _shells(new: Assembled) -> dict[str, Any]:
+    """What a manifest says of open surfaces, as that of an ingested object does: which bodies they
+    are, the m that the thickest weighs as, and that they are a stranger's; nothing where there is
+    none."""
+    shells = {name: piece.shells for name, _, piece in new.parts if piece.shells}
+    if not shells:
+        return {}
+    thickest = max(m for own in shells.values() for m in own.values())
+    bodies = {name: sorted(own) for name, own in shells.items()}
+    return {
+        "source": {"dataset": "+".join(new.datasets), "id": new.template},
+        "shells": {"thickness": thickest, "bodies": bodies},
+    }

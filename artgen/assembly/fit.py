@@ -120,9 +120,9 @@ def fitted(piece: Piece, how: BoxMap) -> Piece:
         faces, uv = faces[:, [0, 2, 1]], uv[:, [0, 2, 1]]
     mesh = dataclasses.replace(piece.mesh, vertices=vertices, faces=faces, uv=uv)
     before = dataclasses.replace(piece.mesh, faces=faces, uv=uv)
-    return Piece(
+    return dataclasses.replace(
+        piece,
         mesh=dataclasses.replace(mesh, uv=fixed_uv(before, vertices, mirrored=how.mirrored)),
-        densities=piece.densities,
         collision=tuple(mapped_convex(c, how) for c in piece.collision),
         grips=tuple(_mapped_grip(grip, how) for grip in piece.grips),
     )
@@ -173,9 +173,9 @@ def moved_piece(piece: Piece, matrix: Floats) -> Piece:
     mesh = dataclasses.replace(
         piece.mesh, vertices=placed(piece.mesh.vertices), uv=np.asarray(piece.mesh.uv) * scale
     )
-    return Piece(
+    return dataclasses.replace(
+        piece,
         mesh=mesh,
-        densities=piece.densities,
         collision=tuple(convex(c) for c in piece.collision),
         grips=tuple(
             dataclasses.replace(

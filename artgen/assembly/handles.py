@@ -54,8 +54,8 @@ def turns_over(handle: Piece) -> bool:
     """Whether a handle looks the same turned by 90 degrees: a cup does not, a bar does."""
     box, triangles = handle.bounds, handle.mesh.triangles
     middle = np.average(triangles.mean(axis=1), axis=0, weights=areas(triangles))
-    off = np.abs(middle - box.mean(axis=0)) / np.diff(box, axis=0)[0]
-    return bool(off[[0, 2]].max() <= EVEN)
+    off, size = np.abs(middle - box.mean(axis=0)), np.diff(box, axis=0)[0]
+    return bool((off <= EVEN * size)[[0, 2]].all())
 
 
 def place_of(slot: Member, donor: Member, front: Floats) -> Place:
@@ -124,7 +124,8 @@ def mounted(handle: Piece, place: Place, front: TriMesh, *, scale: float) -> Pie
     size = np.abs(turn @ np.diff(box, axis=0)[0])
     free = np.diff(room, axis=0)[0] - 2.0 * MARGIN
     scale = float(np.clip(scale, *SCALES))
-    scale = min(scale, float(free[0] / size[0]), float(free[2] / size[2]))
+    with np.errstate(divide="ignore"):  # A sheet seen edge-on has no width.
+        scale = min(scale, float((free / size)[[0, 2]].min()))
     if scale < SCALES[0]:
         return None
     half = scale * size / 2.0

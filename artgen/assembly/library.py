@@ -16,7 +16,7 @@ from artgen.assembly.handles import lie_of, turns_over
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.piece import Piece
 from artgen.assembly.shape_hash import shape_hash
-from artgen.assembly.source import Member, Source
+from artgen.assembly.source import THINNEST, Member, Source
 from artgen.assembly.store import read_source, write_source
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import content_hash, file_hash, replace_atomically, write_json
@@ -234,10 +234,13 @@ class Library:
 
 def is_slot(entry: Entry) -> bool:
     """Whether a donor may take the place of a template's part: it hangs on the base and moves by
-    itself, and a front can be told from what lies behind it or all of it goes."""
+    itself, a front can be told from what lies behind it or all of it goes, and it is no mere
+    sheet."""
+    solid = min(entry.width, entry.depth, entry.height) >= THINNEST
     opens = entry.side in ("out", "along", "left", "right", "bottom", "top")
     closes = entry.label in ROLES and ROLES[entry.label].closes
-    return not entry.is_base and entry.on_base and not entry.follows and opens and closes
+    own = solid and entry.on_base and not entry.follows
+    return not entry.is_base and own and opens and closes
 
 
 def _from_row(row: dict[str, object]) -> Entry:

@@ -1,8 +1,8 @@
-"""Pieces: closed bodies that belong together, finished, with all that travels with them."""
+"""Pieces: bodies that belong together, finished, with all that travels with them."""
 
 import dataclasses
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from artgen.articulation.types import Grip, Mass, Part
 from artgen.core.errors import GeometryError
 from artgen.core.mesh import Floats, TriMesh
-from artgen.geometry.measure import combined, moments
+from artgen.geometry.measure import Moments, combined, moments, sheet_moments
 
 NEAR = 0.004
 """m; how far a collision piece may stick out of the bodies that it stands for."""
@@ -25,12 +25,15 @@ class Piece:
         densities: kg/m3 a body.
         collision: convex pieces.
         grips: those that lie on these bodies.
+        shells: number of each body that is an open surface to the m that it weighs as; all others
+            are closed.
     """
 
     mesh: TriMesh
     densities: tuple[float, ...]
     collision: tuple[TriMesh, ...] = ()
     grips: tuple[Grip, ...] = ()
+    shells: Mapping[int, float] = field(default_factory=dict)
 
     @property
     def bounds(self) -> Floats:
@@ -72,6 +75,7 @@ def picked(piece: Piece, bodies: Sequence[int]) -> Piece | None:
         mesh=mesh,
         densities=tuple(piece.densities[k] for k in bodies),
         collision=tuple(c for c in piece.collision if _belongs(c.bounds, boxes, others)),
+        shells={n: piece.shells[k] for n, k in enumerate(bodies) if k in piece.shells},
     )
 
 
@@ -130,30 +134,43 @@ def joined(pieces: Sequence[Piece]) -> Piece:
         densities=tuple(d for piece in pieces for d in piece.densities),
         collision=tuple(c for piece in pieces for c in piece.collision),
         grips=tuple(g for piece in pieces for g in piece.grips),
+        shells={
+            k + c: t for p, c in zip(pieces, counts, strict=False) for k, t in p.shells.items()
+        },
     )
 
 
 def weighed(piece: Piece) -> Mass:
-    """Exact mass properties of closed bodies at their densities."""
-    bodies = np.asarray(piece.mesh.body)
-    corners = piece.mesh.triangles
-    integrals = [
-        (density, moments(corners[bodies == k])) for k, density in enumerate(piece.densities)
-    ]
-    mass, center, tensor = combined(integrals)
+    """Exact mass properties of closed bodies, and of open ones as sheets, at their densities."""
+    mass, center, tensor = combined(zip(piece.densities, _integrals(piece), strict=True))
     return Mass(mass=mass, center=center, inertia=tensor)
 
 
-def piece_of_part(part: Part) -> Piece:
-    """A finished part as a piece; its mean density for every body where none is stated."""
+def _integrals(piece: Piece) -> Iterator[Moments]:
+    """Of each body: over what it encloses, or along an open surface."""
+    bodies, corners = np.asarray(piece.mesh.body), piece.mesh.triangles
+    for k in range(len(piece.densities)):
+        own = corners[bodies == k]
+        thickness = piece.shells.get(k)
+        yield moments(own) if thickness is None else sheet_moments(own, thickness)
+
+
+def piece_of_part(part: Part, shells: Mapping[int, float] | None = None) -> Piece:
+    """A finished part as a piece; one density for every body where none is stated, so that it
+    weighs what the part does.
+
+    Args:
+        shells: which of its bodies are open surfaces, and the m that each weighs as.
+    """
     count = int(np.asarray(part.mesh.body).max()) + 1
-    densities = part.densities
-    if densities is None:
-        volume = float(body_volumes(part.mesh).sum())
-        densities = (part.mass.mass / volume,) * count
-    return Piece(
+    piece = Piece(
         mesh=dataclasses.replace(part.mesh, atlas=None),
-        densities=densities,
+        densities=part.densities or (1.0,) * count,
         collision=part.collision,
         grips=part.grips,
+        shells=shells or {},
     )
+    if part.densities is not None:
+        return piece
+    volume = sum(integral.volume for integral in _integrals(piece))
+    return dataclasses.replace(piece, densities=(part.mass.mass / volume,) * count)

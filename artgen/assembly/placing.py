@@ -42,9 +42,9 @@ def shifted(piece: Piece, shift: Floats) -> Piece:
     """A piece moved by (3,) m."""
     if not shift.any():
         return piece
-    return Piece(
+    return dataclasses.replace(
+        piece,
         mesh=dataclasses.replace(piece.mesh, vertices=on_grid(piece.mesh.vertices + shift)),
-        densities=piece.densities,
         collision=tuple(
             TriMesh(vertices=on_grid(c.vertices + shift), faces=c.faces) for c in piece.collision
         ),

@@ -21,6 +21,7 @@ from artgen.assembly.piece import Piece, body_boxes, joined, picked, piece_of_pa
 from artgen.assembly.split import Split, split_bodies
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
+from artgen.export.manifest import open_bodies
 from artgen.finish import Rounder, collision_mesh, joined_mesh, meshed, settle_overlaps
 from artgen.geometry.clearance import shape_of_mesh
 from artgen.geometry.solid import hull, slab
@@ -32,6 +33,8 @@ Kind = Literal["front", "whole"]
 """Whether a front can be told from the works behind it, or all but the handle goes as one."""
 ROUNDING = 1e-6
 """m; what collision pieces may stick out of a front."""
+THINNEST = 1e-4
+"""m; what has less extent along an axis is a sheet, which no scale brings to the box of a slot."""
 INTRUDES = 1e-9
 """m3; works that share more with the box of their front keep other fronts out."""
 HANDLE_LEAVES = frozenset({"handle", "knob", "pull"})
@@ -137,14 +140,18 @@ def source_of_draft(draft: Draft, *, id: str, rounder: Rounder) -> Source:
 def source_of_object(
     obj: ArticulatedObject, *, id: str, licence: Licence, dataset: str, family: str = ""
 ) -> Source:
-    """A finished object taken apart body by body."""
+    """A finished object taken apart body by body.
+
+    A part whose front is a sheet without thickness, or whose works reach into the box of its front,
+    is kept whole.
+    """
     base, *movers = obj.parts
     members = []
     for part in movers:
         joint = obj.joint_of(part.name)
         if joint is None:
             continue
-        whole = piece_of_part(part)
+        whole = piece_of_part(part, shells_of(obj.provenance, part.name))
         boxes = body_boxes(whole.mesh)
         called = named_bodies(obj.provenance, part.name, HANDLE_LEAVES)
         split = split_bodies(boxes, joint, part.grips, handles=called)
@@ -157,7 +164,7 @@ def source_of_object(
     return Source(
         id=id,
         category=obj.category,
-        base=piece_of_part(base),
+        base=piece_of_part(base, shells_of(obj.provenance, base.name)),
         base_name=base.name,
         members=tuple(members),
         surfaces=obj.surfaces,
@@ -179,6 +186,13 @@ def named_bodies(
     return tuple(k for first, count in starts for k in range(first, first + count))
 
 
+def shells_of(provenance: Mapping[str, Any], part: str) -> dict[int, float]:
+    """Numbers of a part's bodies that an ingested object states to be open surfaces, and the m that
+    each weighs as."""
+    numbers = open_bodies(provenance, part)
+    return dict.fromkeys(numbers, float(provenance["shells"]["thickness"])) if numbers else {}
+
+
 def split_draft(part: DraftPart, joint: Joint) -> Split | None:
     """The split of a part of a draft; None where its works reach into the box of its front."""
     boxes = np.array([body.solid.bounds for body in part.bodies])
@@ -191,14 +205,20 @@ def split_draft(part: DraftPart, joint: Joint) -> Split | None:
 
 
 def _fits_before(front: Piece, works: Piece | None) -> bool:
-    """Whether works keep out of the box of their front."""
+    """Whether a front has a thickness, and works keep out of its box; open works with their box."""
+    lower, upper = front.bounds
+    if (upper - lower).min() < THINNEST:
+        return False
     if works is None:
         return True
-    lower, upper = front.bounds
     room = m3.Manifold.cube(upper - lower).translate(lower)
+    boxes = body_boxes(works.mesh)
+    shared = np.minimum(boxes[:, 1], upper) - np.maximum(boxes[:, 0], lower)
     return all(
-        body.status() == m3.Error.NoError and (body ^ room).volume() <= INTRUDES
-        for body in shape_of_mesh(works.mesh).bodies
+        shared[k].clip(min=0.0).prod() <= INTRUDES
+        if k in works.shells
+        else body.status() == m3.Error.NoError and (body ^ room).volume() <= INTRUDES
+        for k, body in enumerate(shape_of_mesh(works.mesh).bodies)
     )
 
 

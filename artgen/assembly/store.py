@@ -44,7 +44,8 @@ def write_piece(folder: Path, piece: Piece) -> dict[str, Any]:
         mine = path.with_suffix(f".{os.getpid()}")  # Another process may have an equal piece.
         write_bytes(mine, buffer.getvalue())
         mine.replace(path)
-    return {"mesh": name, "densities": piece.densities, "grips": piece.grips}
+    stated = {"mesh": name, "densities": piece.densities, "grips": piece.grips}
+    return {**stated, "shells": piece.shells} if piece.shells else stated
 
 
 def _arrays(piece: Piece) -> dict[str, np.ndarray[Any, Any]]:
@@ -89,6 +90,7 @@ def read_piece(folder: Path, entry: Mapping[str, Any]) -> Piece:
         densities=tuple(entry["densities"]),
         collision=tuple(faces),
         grips=tuple(read_grip(grip) for grip in entry["grips"]),
+        shells={int(k): float(t) for k, t in entry.get("shells", {}).items()},
     )
 
 

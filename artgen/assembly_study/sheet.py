@@ -44,6 +44,7 @@ def template_object(source: Source) -> Assembled:
         surfaces=source.surfaces,
         licence=most_restrictive([source.licence]),
         donors=(source.family,),
+        datasets=(source.dataset,),
         sources=(),
         tried=(),
         seams={},

@@ -1,4 +1,4 @@
-"""Exact mass properties of closed triangle meshes, and whether they are closed."""
+"""Exact mass properties of closed triangle meshes and of sheets, and whether meshes are closed."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -41,6 +41,27 @@ def moments(triangles: Floats) -> Moments:
     center = first / volume
     second = sum(np.einsum("i,ij,ik->jk", det, x, x) for x in (a, b, c, total)) / 120.0
     return Moments(volume, center + middle, second - volume * np.outer(center, center))
+
+
+def sheet_moments(corners: Floats, thickness: float) -> Moments:
+    """Volume integrals of a sheet along (F, 3, 3) triangles.
+
+    Over a triangle, the integral of x x^T is area / 12 (sum of c c^T over corners, plus s s^T with
+    s their sum); across the sheet, thickness^2 / 12 n n^T is added, so that no sheet is without
+    extent.
+    """
+    middle = (corners.reshape(-1, 3).min(axis=0) + corners.reshape(-1, 3).max(axis=0)) / 2.0
+    a, b, c = (corners - middle).transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=1)
+    weight = length / 2.0 * thickness
+    total = a + b + c
+    volume = float(weight.sum())
+    center = weight @ total / (3.0 * volume)
+    second = sum(np.einsum("i,ij,ik->jk", weight, x, x) for x in (a, b, c, total)) / 12.0
+    unit = normal / length[:, None]
+    across = np.einsum("i,ij,ik->jk", weight, unit, unit) * thickness**2 / 12.0
+    return Moments(volume, center + middle, second + across - volume * np.outer(center, center))
 
 
 def inertia(second: Floats) -> Floats:

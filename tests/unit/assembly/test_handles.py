@@ -1,10 +1,13 @@
 """Handles lie on the face, within their front, and never stretched."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from artgen.assembly.handles import Place, face_depth, lie_of, mounted, turns_over
 from artgen.assembly.piece import Piece, joined
+from artgen.core.mesh import TriMesh
 from tests.unit.assembly.test_fit import framed, piece_of
 
 FRONT = framed()
@@ -57,3 +60,19 @@ def test_what_is_not_symmetric_is_not_turned():
     cup = joined([bar(), piece_of((0.0, -0.01, 0.012), (0.16, 0.0, 0.05))])
     assert turns_over(bar())
     assert not turns_over(cup)
+
+
+def test_a_handle_that_is_a_sheet_seen_edge_on_is_put_up_like_any_other():
+    """One side of a bar that stands upright; its width of zero was divided by."""
+    upright = piece_of((0.0, -0.03, 0.0), (0.012, 0.0, 0.16))
+    flat = (upright.mesh.triangles[:, :, 0] == 0.0).all(axis=1)
+    used, index = np.unique(upright.mesh.faces[flat], return_inverse=True)
+    side = TriMesh(
+        vertices=upright.mesh.vertices[used],
+        faces=index.reshape(-1, 3),
+        uv=np.zeros((len(index) // 3, 3, 2)),
+    )
+    sheet = replace(upright, mesh=side, shells={0: 0.004})
+    assert turns_over(sheet)
+    found = mounted(sheet, Place(x=0.37, z=0.3, lie="z"), FRONT.mesh, scale=1.0)
+    assert np.allclose(sizes(found), (0.0, 0.03, 0.16), atol=2e-7)

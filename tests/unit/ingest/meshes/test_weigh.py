@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from artgen.geometry.measure import inertia, moments
+from artgen.geometry.measure import inertia, moments, sheet_moments
 from artgen.geometry.solid import box
 from artgen.ingest.meshes.clean import Body, bodies_of, welded_soup
 from artgen.ingest.meshes.soup import Look, Soup
-from artgen.ingest.meshes.weigh import sheet_moments, weighed
+from artgen.ingest.meshes.weigh import weighed
 
 SQUARE = np.array([[[0, 0, 0], [2, 0, 0], [2, 1, 0]], [[0, 0, 0], [2, 1, 0], [0, 1, 0]]], float)
 ROUND = 1e-12
