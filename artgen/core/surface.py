@@ -51,6 +51,11 @@ def linear_from_srgb(value: float) -> float:
     return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
 
 
+def srgb_from_linear(value: float) -> float:
+    """IEC 61966-2-1 transfer curve; undoes `linear_from_srgb`."""
+    return 12.92 * value if value <= 0.04045 / 12.92 else 1.055 * value ** (1.0 / 2.4) - 0.055
+
+
 def linear_color(hex_text: str) -> tuple[float, float, float]:
     """`#rrggbb` in sRGB to linear RGB."""
     red, green, blue = (int(hex_text[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
@@ -59,5 +64,4 @@ def linear_color(hex_text: str) -> tuple[float, float, float]:
 
 def srgb_hex(color: tuple[float, float, float]) -> str:
     """Linear RGB to `#rrggbb` in sRGB; undoes `linear_color`."""
-    encoded = (12.92 * c if c <= 0.0031308 else 1.055 * c ** (1.0 / 2.4) - 0.055 for c in color)
-    return "#" + "".join(f"{round(255.0 * value):02x}" for value in encoded)
+    return "#" + "".join(f"{round(255.0 * srgb_from_linear(value)):02x}" for value in color)

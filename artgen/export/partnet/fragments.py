@@ -7,7 +7,7 @@ import numpy as np
 
 from artgen.articulation.types import Part
 from artgen.core.mesh import Floats, TriMesh
-from artgen.core.surface import SurfaceSpec, linear_from_srgb
+from artgen.core.surface import SurfaceSpec, srgb_from_linear
 from artgen.export.numbers import exact, rows
 from artgen.export.obj import distinct
 from artgen.geometry.normals import corner_normals
@@ -126,15 +126,8 @@ def fragment_mtl(
             f"illum {4 if clear else 3}",
             f"d {PANE if clear else 1.0}",
             f"Ns {exact(shine)}",
-            f"Kd {exact([_srgb(value) for value in color])}",
+            f"Kd {exact([srgb_from_linear(value) for value in color])}",
             f"Ks {exact(gloss)}",
         ]
         lines += [f"map_Kd {image}"] if image else []
     return "\n".join(lines) + "\n"
-
-
-def _srgb(value: float) -> float:
-    """IEC 61966-2-1 transfer curve; undoes `linear_from_srgb`."""
-    if value <= linear_from_srgb(0.04045):
-        return 12.92 * value
-    return float(1.055 * value ** (1.0 / 2.4) - 0.055)

@@ -11,6 +11,7 @@ import trimesh
 
 from artgen.core.errors import GeometryError, IngestError
 from artgen.core.mesh import Floats
+from artgen.core.surface import srgb_from_linear
 from artgen.ingest.meshes.objfile import read_obj_soup
 from artgen.ingest.meshes.soup import Look, Soup, joined_soups
 from artgen.validate.places import read_capped
@@ -56,7 +57,7 @@ def read_scene(path: Path) -> list[Instance]:
     try:
         scene = trimesh.load_scene(io.BytesIO(data), file_type=kind[1:], process=False)
         nodes = list(scene.graph.nodes_geometry)[: MOST_MESHES + 1]
-        found = [_instance(scene, node) for node in nodes]
+        found = [_instance(scene, node, linear=kind == ".glb") for node in nodes]
     except Exception as error:  # trimesh passes on whatever its many parsers raise.
         raise GeometryError(f"{path.name}: trimesh cannot read it: {error!r}") from error
     if len(nodes) > MOST_MESHES:
@@ -69,8 +70,8 @@ def read_scene(path: Path) -> list[Instance]:
     return kept
 
 
-def _instance(scene: Any, node: str) -> Instance | None:
-    """The mesh at a node, None for points and lines."""
+def _instance(scene: Any, node: str, *, linear: bool) -> Instance | None:
+    """The mesh at a node, None for points and lines; `linear` tells how the file states colors."""
     pose, name = scene.graph.get(node)
     mesh = scene.geometry[name]
     faces = getattr(mesh, "faces", None)
@@ -86,7 +87,7 @@ def _instance(scene: Any, node: str) -> Instance | None:
         faces=faces,
         uv=uv,
         look=np.zeros(len(faces), np.int64),
-        looks=(_look(mesh),),
+        looks=(_look(mesh, linear=linear),),
     )
     return Instance(name=str(node), soup=soup)
 
@@ -101,19 +102,22 @@ def _uv(mesh: Any, faces: Any) -> Floats:
     return np.asarray(uv)
 
 
-def _look(mesh: Any) -> Look:
-    """Color, opacity and image of a mesh's material, as far as trimesh tells."""
+def _look(mesh: Any, *, linear: bool) -> Look:
+    """Color, opacity and image of a mesh's material, as far as trimesh tells: glTF's factor is
+    linear, and white where it is not stated; other formats state sRGB."""
     material = getattr(mesh.visual, "material", None)
     if material is None:
         return Look()
     color = getattr(material, "baseColorFactor", None)
     color = getattr(material, "diffuse", None) if color is None else color
-    values = [0.8, 0.8, 0.8, 1.0] if color is None else _unit(color)
+    plain = [1.0, 1.0, 1.0, 1.0] if linear else [0.8, 0.8, 0.8, 1.0]
+    *stated, opacity = plain if color is None else _unit(color)
+    red, green, blue = (srgb_from_linear(v) if linear else v for v in stated)
     picture = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
     rough, metal = (getattr(material, f"{w}Factor", None) for w in ("roughness", "metallic"))
     return Look(
-        color=(values[0], values[1], values[2]),
-        opacity=values[3],
+        color=(red, green, blue),
+        opacity=opacity,
         roughness=0.6 if rough is None else float(np.clip(rough, 0.0, 1.0)),
         metallic=float(metal is not None and metal > 0.5),
         image=None if picture is None else _png(picture),
