@@ -49,7 +49,7 @@ class Mixed:
         if self.counts.min() < 1:
             raise ModelError(
                 f"weights {weights.tolist()}: a source has less than a hundredth of the items; "
-                "leave it out, or raise its weight"
+                "leave it out, or raise its weight (--shard-share of artgen train)"
             )
         self._starts = np.cumsum([0, *(len(source) for source in self.sources)])
 
@@ -87,6 +87,20 @@ class Mixed:
         return chosen(merged(shown), np.argsort(came).tolist())
 
 
+def mixed_by_number(sources: Sequence[Source[Any]]) -> Source[Any]:
+    """All items alike, but for small sources: each has a hundredth at least.
+
+    Raises:
+        ModelError: there is none, or more than can have that.
+    """
+    if len(sources) == 1:
+        return sources[0]
+    if not 1 < len(sources) <= BLOCK:
+        raise ModelError(f"{len(sources)} sources to mix; expected 1 to {BLOCK}")
+    shares = _raised(np.array([len(source) for source in sources], float))
+    return Mixed(list(zip(sources, shares.tolist(), strict=True)))
+
+
 class _Woven:
     """A row that takes so many of every hundred places from each of several rows."""
 
@@ -107,6 +121,17 @@ class _Woven:
         before = int((self._pattern[:offset] == k).sum())
         own = block * int(self._counts[k]) + before
         return int(self._starts[k]) + self._rows[k].at(own)
+
+
+def _raised(weights: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Shares in proportion to the weights, those below a hundredth raised to one."""
+    low = np.zeros(len(weights), bool)
+    while True:
+        rest = 1.0 - low.sum() / BLOCK
+        shares = np.where(low, 1.0 / BLOCK, rest * weights / weights[~low].sum())
+        if not (below := shares < 1.0 / BLOCK).any():
+            return shares
+        low |= below
 
 
 def _hundredths(weights: NDArray[np.float64]) -> NDArray[np.int64]:

@@ -34,6 +34,8 @@ class Train:
 
     artgen train multiview --size nano --objects 2000 --set train.steps=8000 data.batch=16
 
+    artgen train multiview --library lib.npz --shards renders/shards --shard-share 0.2
+
     torchrun --nproc-per-node 8 --no-python artgen train multiview --size s --library lib.npz
     """
 
@@ -51,6 +53,9 @@ class Train:
     """Read objects from this file instead of making them; `artgen train-data` writes one."""
     shards: tuple[Path, ...] = ()
     """Folders of rendered shards to learn from, mixed with --library if that is given."""
+    shard_share: float | None = None
+    """Share of what is shown that comes from --shards, such as 0.2, where --library or --categories
+    gives objects as well; by their numbers if not given, a hundredth at least."""
     scenes: int | None = None
     """Show every object in this many scenes, kept in memory, instead of a new one each time: half
     the work on a CPU, less variety."""
@@ -91,6 +96,7 @@ def _train(command: Train, config: Config) -> None:
         library=command.library,
         shards=command.shards,
         scenes=command.scenes,
+        shard_share=command.shard_share,
     )
     run_session(
         config,

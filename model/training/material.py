@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from artgen.core.errors import UsageError
 from artgen.dataset.split import Split
 from artgen.progress import Show
 from artgen.rules import rule_names
@@ -15,12 +16,14 @@ from model.data.items import Source
 from model.data.kept import Kept
 from model.data.library import library_made, read_library
 from model.data.make import Request, dealt, make_library
-from model.data.mixed import Mixed
+from model.data.mixed import BLOCK, Mixed, mixed_by_number
 from model.data.shards import ShardSource
 from model.data.soup import TOLERANCE
 from model.data.soup_source import SoupSource
 
 WORKERS = os.cpu_count() or 1
+LEAST = 1 / BLOCK
+"""Share of the items that a source has at least, where several are mixed."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +34,9 @@ class Material:
         categories: of objects made from seeds; all where none is named.
         objects: how many are made, dealt out to the categories in turn.
         library: file of objects, instead of making them.
-        shards: folders of rendered shards, mixed in by their number of samples.
+        shards: folders of rendered shards, mixed in.
+        shard_share: of the items, from shards, where there are other objects beside them; None
+            goes by their numbers. A hundredth at least is for either.
         split: share of the objects that is learned from; None for all.
         scenes: in which every object is seen, again in every epoch; None draws a new one each time.
     """
@@ -42,6 +47,19 @@ class Material:
     shards: tuple[Path, ...] = ()
     split: Split | None = "train"
     scenes: int | None = None
+    shard_share: float | None = None
+
+    def __post_init__(self) -> None:
+        share, both = self.shard_share, self.shards and (self.library or self.categories)
+        if share is not None and not both:
+            raise UsageError(
+                f"--shard-share {share}: divides the items between --shards and --library or "
+                "--categories; name both, or leave it out"
+            )
+        if share is not None and not LEAST <= share <= 1.0 - LEAST:
+            raise UsageError(
+                f"--shard-share {share}: expected {LEAST} to {1.0 - LEAST}, whole hundredths"
+            )
 
     def request(self, seed: int) -> Request:
         """Which objects to make."""
@@ -81,13 +99,25 @@ def opened(material: Material, folder: Path, data: DataConfig) -> Source[Any]:
         ShardError: a shard is damaged.
     """
     split, slots = material.split, data.slots
-    sources: list[Source[Any]] = [
-        ShardSource(path, split=split, slots=slots) for path in material.shards
+    path = _library(material, folder)
+    shards: list[Source[Any]] = [
+        _shown(ShardSource(one, split=split, slots=slots), material.scenes)
+        for one in material.shards
     ]
-    if path := _library(material, folder):
-        sources.append(SoupSource(read_library(path), split=split, slots=slots))
-    one = sources[0] if len(sources) == 1 else Mixed([(one, len(one)) for one in sources])
-    return one if material.scenes is None else Kept(one, material.scenes)
+    objects: list[Source[Any]] = (
+        [_shown(SoupSource(read_library(path), split=split, slots=slots), material.scenes)]
+        if path
+        else []
+    )
+    share = material.shard_share
+    if share is None:
+        return mixed_by_number([*shards, *objects])
+    return Mixed([(mixed_by_number(shards), share), (mixed_by_number(objects), 1.0 - share)])
+
+
+def _shown(source: Source[Any], scenes: int | None) -> Source[Any]:
+    """Kept before it is mixed: each source then comes round in its own share."""
+    return source if scenes is None else Kept(source, scenes)
 
 
 def _library(material: Material, folder: Path) -> Path | None:

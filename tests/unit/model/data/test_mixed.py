@@ -10,7 +10,7 @@ from artgen.core.stream import Stream
 from model.data.library import packed
 from model.data.loader import batches
 from model.data.merge import merged
-from model.data.mixed import BLOCK, Mixed
+from model.data.mixed import BLOCK, Mixed, mixed_by_number
 from model.data.soup_source import SoupSource
 from tests.unit.model.data.small import CONFIG, assert_equal, soup
 
@@ -68,3 +68,36 @@ def test_weights_that_give_a_source_nothing_are_refused(weights):
     pairs = list(itertools.product([CABINETS], weights))
     with pytest.raises(ModelError, match="weight"):
         Mixed(pairs)
+
+
+class Sized:
+    """As much of a source as its share depends on."""
+
+    def __init__(self, size):
+        self.size = size
+
+    def __len__(self):
+        return self.size
+
+
+@pytest.mark.parametrize(
+    ("sizes", "counts"),
+    [
+        ((30, 7243), [1, 99]),
+        ((7243, 30), [99, 1]),
+        ((300, 100), [75, 25]),
+        ((1, 1, 10**6), [1, 1, 98]),
+        ((1, 160, 9839), [1, 2, 97]),
+        ((5,) * 100, [1] * 100),
+    ],
+)
+def test_small_sources_have_a_hundredth_at_least(sizes, counts):
+    """Some Cycles shards beside a large library were refused: 30 of 7,273 are no hundredth."""
+    assert mixed_by_number([Sized(size) for size in sizes]).counts.tolist() == counts
+
+
+def test_one_source_alone_is_not_mixed_and_none_or_too_many_are_refused():
+    assert mixed_by_number([CABINETS]) is CABINETS
+    for count in (0, 101):
+        with pytest.raises(ModelError, match="expected 1 to 100"):
+            mixed_by_number([Sized(5)] * count)
