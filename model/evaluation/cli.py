@@ -23,7 +23,7 @@ from model.evaluation.records import picture_path
 from model.evaluation.report import SHOWN, Report, interval, page, ranking, shown
 from model.evaluation.score import Align, Protocol, Record
 from model.evaluation.summary import Summary, summary
-from model.evaluation.tasks import Task, scored
+from model.evaluation.tasks import SIMULATED, Task, perceptual_of, scored
 
 FormatName = Literal[
     "auto", "bundle", "urdf", "urdformer", "singapo", "paris", "dta", "artgs", "two_states"
@@ -143,21 +143,29 @@ def judged_folder(command: Evaluate, protocol: Protocol) -> Report:
             f"no object of {command.truth} is among {folder}: {_some(sorted(true))} against "
             f"{_some(sorted(predicted))}; name predictions as the true objects are named"
         )
-    with run_folder(command.out, stated_run(command, protocol)):
+    perceptual_of(command.lpips)  # Weights that are none are told before anything is scored.
+    gated = command.gates and all(place.format in SIMULATED for place in predicted.values())
+    asked = {
+        "format": command.format,
+        "truth_format": command.truth_format,
+        "gated": gated,
+        "lpips": command.lpips,
+    }
+    with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):
         tasks = [
             Task(
                 name=name,
                 predicted=predicted.get(name),
                 true=true[name],
                 protocol=protocol,
-                gated=command.gates,
+                gated=gated,
                 folder=command.out / "objects",
                 lpips=command.lpips,
             )
             for name in sorted(true)
         ]
         records = scored_with_progress(tasks, command.workers)
-        return written(command, protocol, records, notes(predicted, true))
+        return written(command, protocol, records, notes(predicted, true, records))
 
 
 def judged_network(command: Evaluate, protocol: Protocol) -> Report:
@@ -260,7 +268,7 @@ def run_folder(folder: Path, stated: Mapping[str, object]) -> Iterator[None]:
     with locked(folder):
         others = sorted(path.name for path in folder.iterdir() if path.name != ".lock")
         if record.is_file():
-            if json.loads(record.read_text(encoding="utf-8")) != dict(stated):
+            if _stated(record) != dict(stated):
                 raise UsageError(
                     f"{folder} holds the evaluation of other predictions, truth or options; choose "
                     "another --out"
@@ -275,6 +283,14 @@ def run_folder(folder: Path, stated: Mapping[str, object]) -> Iterator[None]:
                 record.unlink()  # Nothing was found, so the folder is anyone's.
 
 
+def _stated(record: Path) -> object:
+    """What a folder says it belongs to; None where that is damaged."""
+    try:
+        return json.loads(record.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return None
+
+
 def scored_with_progress(tasks: Sequence[Task], workers: int) -> list[Record]:
     """Records in the order of the tasks."""
     records = {}
@@ -285,9 +301,15 @@ def scored_with_progress(tasks: Sequence[Task], workers: int) -> list[Record]:
     return [records[task.name] for task in tasks]
 
 
-def notes(predicted: Mapping[str, Place], true: Mapping[str, Place]) -> list[str]:
+def notes(
+    predicted: Mapping[str, Place], true: Mapping[str, Place], records: Sequence[Record]
+) -> list[str]:
     """What the reader must know of what was compared."""
     found = []
+    if damaged := [record.name for record in records if not record.parts]:
+        found.append(
+            f"{len(damaged)} true objects cannot be read and count nowhere: {_some(damaged)}."
+        )
     if extra := sorted(set(predicted) - set(true)):
         found.append(f"{len(extra)} predictions have no truth and were left out: {_some(extra)}.")
     return found

@@ -26,33 +26,33 @@ WINDOW = 11
 
 @dataclass(frozen=True, kw_only=True)
 class ImageScores:
-    """Scores of one image.
+    """Scores of one image; all None where it cannot be compared.
 
     Attributes:
         psnr: dB over all pixels.
-        psnr_foreground: dB over the pixels of the true mask; None where it is empty.
+        psnr_foreground: dB over the pixels of the true mask; None where it is empty or unknown.
         ssim: Wang et al. 2004: Gaussian window of 1.5 px, biased covariance; None for images
             smaller than the window.
         lpips: None without weights.
-        mask_iou: of the whole object's masks; None where both are empty.
+        mask_iou: of the whole object's masks; None where both are empty or one is unknown.
     """
 
-    psnr: float
-    psnr_foreground: float | None
-    ssim: float | None
-    lpips: float | None
-    mask_iou: float | None
+    psnr: float | None = None
+    psnr_foreground: float | None = None
+    ssim: float | None = None
+    lpips: float | None = None
+    mask_iou: float | None = None
 
 
 def image_scores(
     predicted: Floats,
     true: Floats,
-    predicted_mask: Mask,
-    true_mask: Mask,
+    predicted_mask: Mask | None,
+    true_mask: Mask | None,
     *,
     perceptual: Perceptual | None = None,
 ) -> ImageScores:
-    """All scores of an image.
+    """All scores of an image; masks are None where they are not known.
 
     Raises:
         ModelError: the images differ in size.
@@ -62,12 +62,17 @@ def image_scores(
             f"an image of {predicted.shape[1]} x {predicted.shape[0]} px is compared with one of "
             f"{true.shape[1]} x {true.shape[0]} px; render both with the same cameras"
         )
+    inside = None if true_mask is None or not true_mask.any() else true_mask
     return ImageScores(
         psnr=psnr(predicted, true),
-        psnr_foreground=psnr(predicted[true_mask], true[true_mask]) if true_mask.any() else None,
+        psnr_foreground=None if inside is None else psnr(predicted[inside], true[inside]),
         ssim=ssim(predicted, true),
         lpips=None if perceptual is None else perceptual(predicted, true),
-        mask_iou=mask_iou(predicted_mask, true_mask),
+        mask_iou=(
+            None
+            if predicted_mask is None or true_mask is None
+            else mask_iou(predicted_mask, true_mask)
+        ),
     )
 
 
@@ -100,9 +105,10 @@ def mask_iou(predicted: Mask, true: Mask) -> float | None:
     return float((predicted & true).sum()) / either if either else None
 
 
-def over_white(rgba: Floats) -> tuple[Floats, Mask]:
-    """(H, W, 3) over white and (H, W) mask of an image with or without straight alpha."""
+def over_white(rgba: Floats) -> tuple[Floats, Mask | None]:
+    """(H, W, 3) over white and (H, W) mask of an image with straight alpha; one without alpha does
+    not say what the object is."""
     if rgba.shape[-1] == 3:
-        return rgba, np.ones(rgba.shape[:2], bool)
+        return rgba, None
     alpha = rgba[..., 3:]
     return rgba[..., :3] * alpha + (1.0 - alpha), alpha[..., 0] > 0.5

@@ -79,7 +79,7 @@ def _row(
     lines = (predicted.origins[mine], predicted.axes[mine], true.origins[part], true.axes[part])
     known = turning and angle is not None
     state = _state_error(predicted, mine, true, part, sign) if same else None
-    reach = float(np.ptp(true.limits[part])) or 2.0 * math.pi
+    reach = _reach(true, part)
     above = of_true.get(int(true.parents[part]))
     return JointErrors(
         part=true.labels[part],
@@ -88,15 +88,28 @@ def _row(
         axis_deg=angle,
         axis_unsigned_deg=None if angle is None else min(angle, 180.0 - angle),
         flipped=flipped,
-        line=line_distance(*lines) / true.radius if known else None,
-        pivot=_pivot(*lines, true.centers[part]) / true.radius if known else None,
+        line=_finite(line_distance(*lines) / true.radius) if known else None,
+        pivot=_finite(_pivot(*lines, true.centers[part]) / true.radius) if known else None,
         lever=lever_error(predicted, mine, true, part) / true.radius,
         state_deg=math.degrees(state) if state is not None and turning else None,
         state_radii=state / true.radius if state is not None and not turning else None,
-        state_share=None if state is None else state / reach,
+        state_share=None if state is None or reach is None else state / reach,
         limit_iou=_limit_iou(predicted, mine, true, part, sign) if same else None,
         parent_right=None if above is None else bool(predicted.parents[mine] == above),
     )
+
+
+def _finite(value: float) -> float | None:
+    """None where an origin was not given."""
+    return value if math.isfinite(value) else None
+
+
+def _reach(true: Layout, part: int) -> float | None:
+    """Width of a true range; a full turn if endless, None where it is unknown or a point."""
+    if true.endless[part]:
+        return 2.0 * math.pi
+    width = float(np.ptp(true.limits[part]))
+    return width if width > 0.0 else None
 
 
 def angle_deg(first: Floats, second: Floats) -> float | None:
@@ -161,8 +174,8 @@ def _limit_iou(predicted: Layout, mine: int, true: Layout, part: int, sign: floa
     low, high = true.limits[part].tolist()
     if not np.isfinite([lower, upper, low, high]).all():
         return None
-    union = max(upper, high) - min(lower, low)
-    gap = max(lower, low) - min(upper, high)  # Negative where they overlap.
-    if union <= 0.0:
+    if (lower, upper) == (low, high):
         return 1.0
-    return max(-gap, 0.0) / (union - max(gap, 0.0))
+    shared = max(min(upper, high) - max(lower, low), 0.0)
+    union = (upper - lower) + (high - low) - shared
+    return shared / union if union > 0.0 else 0.0

@@ -19,6 +19,8 @@ from artgen.core.transform import rigid
 
 HANDLE = "handle"
 """The label of parts that some protocols leave out."""
+LARGEST = 1e12
+"""Of any number of a layout: its cube still has digits in float64, its coordinates in float32."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,7 +35,7 @@ class Layout:
         types: (P,) FIXED, REVOLUTE or PRISMATIC.
         endless: (P,) whether a revolute joint turns without limits; all false when left out.
         axes: (P, 3) unit directions; zero for fixed parts, nan where none was given.
-        origins: (P, 3) a point of the axis; zero unless revolute.
+        origins: (P, 3) a point of the axis; zero unless revolute, nan where none was given.
         limits: (P, 2) lower and upper end, rad or lengths; zeros for fixed parts.
         parents: (P,) index of the parent, -1 for the base.
         states: (T, P) q of each part's own joint in T observed states; None where not known.
@@ -86,6 +88,13 @@ class Layout:
                 f"layout {self.name}: a box is not finite or has its lower corner above its upper "
                 "one; check what the system wrote"
             )
+        for key in ("boxes", "origins", "limits", "states"):
+            values = getattr(self, key)
+            if values is not None and (np.abs(values) > LARGEST).any():
+                raise ModelError(
+                    f"layout {self.name}: {key} reach {np.nanmax(np.abs(values)):g}, expected at "
+                    f"most {LARGEST:g}; check what the system wrote"
+                )
         parents = self.parents.tolist()
         if parents[0] != -1 or any(not 0 <= p < len(parents) for p in parents[1:]):
             raise ModelError(

@@ -216,7 +216,7 @@ def _gallery(report: Report) -> Iterator[str]:
 
 def ranking(records: Sequence[Record]) -> list[Record]:
     """Objects with a prediction, best first."""
-    scored = [record for record in records if record.failure is None]
+    scored = [record for record in records if RANKED_BY in record.metrics if not record.failure]
     return sorted(scored, key=lambda record: (record.metrics[RANKED_BY][0], record.name))
 
 

@@ -65,11 +65,11 @@ class Record:
     """The scores of one object.
 
     Attributes:
-        parts: of the true object, base included.
+        parts: of the true object, base included; 0 where that cannot be read.
         failure: why there is no prediction; None where there is one.
         metrics: name of `METRICS` to its values: one, or one a joint or image.
         joints: rows of the true joints by the nearest matching.
-        reasons: gate to what speaks against it.
+        reasons: gate, or image, to what speaks against it.
     """
 
     name: str
@@ -82,17 +82,26 @@ class Record:
     reasons: Mapping[str, str] = field(default_factory=dict)
 
 
-def failed(true: Layout, why: str) -> Record:
-    """The record of an object without a prediction: the worst of every bounded metric."""
+def failed(true: Layout, why: str, *, idle: Sequence[str] = ()) -> Record:
+    """The record of an object without a prediction: the worst of every bounded metric.
+
+    Args:
+        idle: beginnings of the metrics that are asked of no object, such as `gates.`.
+    """
     count = int(true.movable.sum())
     worst: Values = {}
     for name, metric in METRICS.items():
-        if metric.worst is not None:
+        if metric.worst is not None and not name.startswith(tuple(idle)):
             rows = count if name.startswith("joints.") else 1
             worst[name] = [metric.worst] * rows
     return Record(
         name=true.name, category=true.category, parts=len(true), failure=why, metrics=worst
     )
+
+
+def unread(name: str, why: str) -> Record:
+    """The record of an object whose truth cannot be read: it counts nowhere."""
+    return Record(name=name, category="", parts=0, failure=f"the true object is damaged: {why}")
 
 
 def score(

@@ -53,7 +53,7 @@ def _grouped(
     records: Sequence[Record], key: Callable[[Record], str]
 ) -> dict[str, dict[str, Estimate]]:
     groups: dict[str, list[Record]] = {}
-    for record in records:
+    for record in (own for own in records if own.parts):  # 0 where the truth cannot be read.
         groups.setdefault(key(record), []).append(record)
     return {
         group: {name: _estimate(own, name) for name in HEADLINES}

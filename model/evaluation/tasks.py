@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from artgen.core.errors import ArtgenError
+from artgen.core.errors import ArtgenError, ModelError
 from artgen.core.jsonio import content_hash, file_hash, write_bytes
 from artgen.core.mesh import Floats
 from artgen.export.layout import MANIFEST
 from artgen.pool import run_in_processes
+from artgen.validate.meshfile import MESH_READERS
 from artgen.validate.subject import Source
 from model.evaluation.adapters.formats import FORMATS, Place
 from model.evaluation.gates import gates
@@ -21,13 +22,16 @@ from model.evaluation.images import ImageScores, Perceptual, image_scores, over_
 from model.evaluation.layout import Layout
 from model.evaluation.pictures import strip
 from model.evaluation.records import SCHEMA, keep_record, kept_record, picture_path
-from model.evaluation.score import Protocol, Record, failed, score
+from model.evaluation.score import Protocol, Record, failed, score, unread
+from model.evaluation.surfaces import has_surface
 
 TASK_TIMEOUT_S = 900.0
 SIMULATED = {"bundle": "bundle", "urdf": "urdf", "urdformer": "urdf"}
 """Format of a prediction to the format that the gates read; others state no simulation."""
 IMAGES = "images"
 """Folder beside an object's files with PNGs; predicted and true ones of one name are compared."""
+UNREADABLE = (ArtgenError, OSError, ValueError, SyntaxError, Image.DecompressionBombError)
+"""What a file that is no image, or an image of another size, raises."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +40,7 @@ class Task:
 
     Attributes:
         predicted: None where there is no prediction.
+        gated: whether predictions are driven in MuJoCo; their format is one of `SIMULATED`.
         folder: receives the record and the picture.
         lpips: folder of LPIPS's weights; None leaves it null.
     """
@@ -62,12 +67,25 @@ class Task:
 
 
 def _digests(place: Place | None) -> list[list[str]]:
-    """Every file of an object with its hash; a folder's own files, or those beside a file."""
+    """Every file of an object with its hash; a folder's own files, or those beside a file, and
+    meshes where a format has them elsewhere."""
     if place is None:
         return []
     root = place.path if place.path.is_dir() else place.path.parent
-    files = sorted(path for path in root.rglob("*") if path.is_file())
-    return [[place.format, path.relative_to(root).as_posix(), file_hash(path)] for path in files]
+    files = [path for path in root.rglob("*") if path.is_file()]
+    if place.format == "urdformer":
+        around = root.parent.rglob("*")
+        files += [path for path in around if path.suffix.lower() in MESH_READERS]
+    named = {path.relative_to(root.parent).as_posix(): path for path in files}
+    return [[place.format, name, _digest(path)] for name, path in sorted(named.items())]
+
+
+def _digest(path: Path) -> str:
+    """Its hash; of a file that may not be read, which its reader tells, that."""
+    try:
+        return file_hash(path)
+    except OSError as error:
+        return str(error)
 
 
 def scored(tasks: Sequence[Task], *, workers: int) -> Iterator[Record]:
@@ -99,28 +117,54 @@ def _one_thread() -> None:
 
 def work(task: Task) -> Record:
     """Score one object, and keep its record and picture."""
-    true = replace(task.true.read(), name=task.name)
-    record = _record(task, true)
+    record = _record(task)
     keep_record(task.folder, record, task.key)
     return record
 
 
-def _record(task: Task, true: Layout) -> Record:
+def _record(task: Task) -> Record:
+    try:
+        true = _truth(task)
+    except ArtgenError as error:
+        return unread(task.name, str(error))
     if task.predicted is None:
-        return failed(true, "no prediction of that name")
+        return failed(true, "no prediction of that name", idle=_idle(task, true))
     try:
         predicted = task.predicted.read()
+        return _scored(task, task.predicted, predicted, true)
     except ArtgenError as error:
-        return failed(true, str(error))
-    held = gates(_source(task.predicted)) if task.gated and _simulated(task.predicted) else None
-    images = {"images": list(image_pairs(task.predicted, task.true, perceptual_of(task.lpips)))}
-    record = score(predicted, true, task.protocol, gates=held, images=images)
+        why = str(error)
+    except (ArithmeticError, ValueError, LookupError, MemoryError) as error:
+        why = f"{task.predicted.path} is read and cannot be scored: {error!r}"
+    return failed(true, why, idle=_idle(task, true))
+
+
+def _truth(task: Task) -> Layout:
+    """The true object, which needs an extent to measure by."""
+    true = replace(task.true.read(), name=task.name)
+    if not true.radius > 0.0:
+        raise ModelError(f"{task.true.path}: all boxes are one point; a true object has a size")
+    return true
+
+
+def _scored(task: Task, place: Place, predicted: Layout, true: Layout) -> Record:
+    held = gates(_source(place)) if task.gated else None
+    images, wrong = image_pairs(place, task.true, perceptual_of(task.lpips))
+    record = score(predicted, true, task.protocol, gates=held, images={IMAGES: images})
     write_bytes(picture_path(task.folder, task.name), strip(predicted, true))
-    return record
+    return replace(record, reasons={**record.reasons, **wrong})
 
 
-def _simulated(place: Place) -> bool:
-    return place.format in SIMULATED
+def _idle(task: Task, true: Layout) -> tuple[str, ...]:
+    """Beginnings of the metrics that this run asks of no prediction."""
+    asked = {
+        "masks.": task.protocol.mask_pixels > 0,
+        "gates.": task.gated,
+        "images.": any(_images(task.true).glob("*.png")),
+        "images.new_state.": False,
+        "surfaces.": has_surface(true),
+    }
+    return tuple(beginning for beginning, held in asked.items() if not held)
 
 
 def _source(place: Place) -> Source:
@@ -139,22 +183,46 @@ def perceptual_of(folder: Path | None) -> Perceptual | None:
 
 def image_pairs(
     predicted: Place, true: Place, perceptual: Perceptual | None = None
-) -> Iterator[ImageScores]:
-    """Scores of the images that both objects have under one name."""
-    folders = [
-        (own.path if own.path.is_dir() else own.path.parent) / IMAGES for own in (predicted, true)
-    ]
-    for path in sorted(folders[1].glob("*.png")):
-        other = folders[0] / path.name
-        if other.is_file():
-            (mine, mask), (theirs, true_mask) = (over_white(_rgba(p)) for p in (other, path))
-            yield image_scores(mine, theirs, mask, true_mask, perceptual=perceptual)
+) -> tuple[list[ImageScores], dict[str, str]]:
+    """Scores of the images that both objects have under one name, and what is wrong with some.
+
+    A predicted image that cannot be compared shares no pixel with the true one; a true one that
+    cannot be read is left out.
+    """
+    found, wrong = [], {}
+    for path in sorted(_images(true).glob("*.png")):
+        other = _images(predicted) / path.name
+        if not other.is_file():
+            continue
+        try:
+            theirs, true_mask = over_white(_pixels(path))
+        except UNREADABLE as error:
+            wrong[f"true {IMAGES}/{path.name}"] = f"cannot be read: {error}"
+            continue
+        try:
+            mine, mask = over_white(_pixels(other))
+            found.append(image_scores(mine, theirs, mask, true_mask, perceptual=perceptual))
+        except UNREADABLE as error:
+            wrong[f"{IMAGES}/{path.name}"] = str(error)
+            found.append(ImageScores(mask_iou=None if true_mask is None else 0.0))
+    return found, wrong
 
 
-def _rgba(path: Path) -> Floats:
+def _images(place: Place) -> Path:
+    return (place.path if place.path.is_dir() else place.path.parent) / IMAGES
+
+
+def _pixels(path: Path) -> Floats:
+    """(H, W, 4) in [0, 1], or (H, W, 3) of an image without alpha."""
     with Image.open(path) as image:
-        return np.asarray(image.convert("RGBA"), float) / 255.0
+        mode = "RGBA" if image.has_transparency_data else "RGB"
+        return np.asarray(image.convert(mode), float) / 255.0
 
 
 def _lost(task: Task, why: str) -> Record:
-    return Record(name=task.name, category="", parts=0, failure=why)
+    """The record of an object whose process died."""
+    try:
+        true = _truth(task)
+    except ArtgenError as error:
+        return unread(task.name, str(error))
+    return failed(true, why, idle=_idle(task, true))

@@ -19,6 +19,19 @@ from model.evaluation.adapters.urdf import layout_of_urdf, layout_of_urdformer
 from model.evaluation.layout import Layout
 
 Reader = Callable[[Path], Layout]
+FOREIGN = (
+    LookupError,
+    ValueError,
+    TypeError,
+    AttributeError,
+    ArithmeticError,
+    OSError,
+    StopIteration,
+    RecursionError,
+    SyntaxError,
+    MemoryError,
+)
+"""What reading a stranger's file raises where it lacks something, or holds something else."""
 
 
 @dataclass(frozen=True)
@@ -64,8 +77,18 @@ class Place:
     path: Path
 
     def read(self) -> Layout:
-        """Its layout."""
-        return FORMATS[self.format].read(self.path)
+        """Its layout.
+
+        Raises:
+            ArtgenError: whatever is wrong with its files.
+        """
+        try:
+            return FORMATS[self.format].read(self.path)
+        except FOREIGN as error:
+            raise ModelError(
+                f"{self.path} cannot be read as {self.format} ({error!r}); expected "
+                f"{FORMATS[self.format].told}, see docs/evaluation.md"
+            ) from error
 
 
 def places(folder: Path, format_: str = "auto") -> dict[str, Place]:
@@ -115,10 +138,13 @@ def _name(folder: Path, file: Path, form: Format) -> str:
 
 
 def _asset_id(manifest: Path) -> str:
+    """The id that a manifest states; of a damaged one, whose reader tells, that of its folder as
+    `artgen generate` names them: `laptop/000000` holds laptop_000000."""
     try:
         return str(json.loads(manifest.read_text(encoding="utf-8"))["asset_id"])
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ModelError(f"{manifest} is damaged ({error!r}); generate the asset anew") from error
+    except FOREIGN:
+        own = manifest.parent
+        return f"{own.parent.name}_{own.name}" if own.name.isdigit() else own.name
 
 
 def _named(folder: Path, found: list[Place]) -> dict[str, Place]:

@@ -17,6 +17,7 @@ static one. A joint's range runs from 0 to the second state, as none of them sta
 
 import json
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,10 +29,9 @@ from artgen.articulation.targets import FIXED, PRISMATIC, REVOLUTE
 from artgen.core.errors import ArtgenError, ModelError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.validate.meshfile import read_mesh
+from model.evaluation.adapters.stated_row import Row, kind_of
 from model.evaluation.layout import Layout, unit_axes
 
-TURNING = {"rotate", "revolute", "r", "hinge"}
-SLIDING = {"translate", "prismatic", "p", "slider"}
 STILL_DEG = 5.0
 """Relative turns below count as slides where nothing says what a joint is."""
 MESHES = (".obj", ".ply", ".stl", ".glb")
@@ -49,25 +49,19 @@ class Claim:
 
 def layout_of_paris(folder: Path) -> Layout:
     """The layout of a PARIS export; its learned motion is half of the way, `dist` too."""
-    file = _only(folder, "*_motion.json")
-    stated = _json(file)
-    kind = _kind(file, stated["type"])
-    if kind == REVOLUTE:
-        travel = math.radians(_number(stated["rot_angle"]))
-    else:
-        travel = 2.0 * _number(stated["dist"])
-    claim = Claim(kind, _vector(stated["axis_d"]), _vector(stated.get("axis_o", (0, 0, 0))), travel)
-    static, moving = _only(folder, "*_static_*.ply"), _only(folder, "*_trans2start_*.ply")
-    whole = [path for path in (static, moving) if "whole" not in path.name]
-    return _layout(folder.name, whole, [claim])
+    file = _last(folder, "*_motion.json")
+    row = Row(file, "motion", _json(file))
+    kind = row.kind("type")
+    travel = math.radians(row.number("rot_angle")) if kind == REVOLUTE else 2.0 * row.number("dist")
+    origin = row.vector("axis_o") if "axis_o" in row else np.zeros(3)
+    parts = [_last(folder, "*_static_*.ply"), _last(folder, "*_trans2start_*.ply")]
+    return _layout(folder.name, parts, [Claim(kind, row.vector("axis_d"), origin, travel)])
 
 
 def layout_of_dta(folder: Path) -> Layout:
     """The layout of a result folder of Digital Twin Art, in the state that it calls `init`."""
     file = _first(folder, ("init_motion.json", "init_p*_motion.json"))
-    stated = _json(file)
-    rows = [stated] if isinstance(stated, Mapping) else stated
-    claims = [_rigid_claim(folder, file, k, row) for k, row in enumerate(rows)]
+    claims = [_rigid_claim(folder, k, row) for k, row in enumerate(_rows(file, _json(file)))]
     parts = [_with_suffix(folder, f"init_part_{k}") for k in range(len(claims) + 1)]
     return _layout(folder.name, parts, claims)
 
@@ -76,8 +70,8 @@ def layout_of_artgs(folder: Path) -> Layout:
     """The layout of joints and meshes that were taken out of ArtGS."""
     file = _first(folder, ("pred_joint_list.json", "joints.json", "trans_pred.json"))
     stated = _json(file)
-    rows = stated.get("trans_info", [stated]) if isinstance(stated, Mapping) else stated
-    claims = [_any_claim(file, row) for row in rows]
+    listed = stated.get("trans_info", stated) if isinstance(stated, Mapping) else stated
+    claims = [_any_claim(row) for row in _rows(file, listed)]
     parts = [_with_suffix(folder, f"part_{k}") for k in range(len(claims) + 1)]
     return _layout(folder.name, parts, claims)
 
@@ -85,8 +79,8 @@ def layout_of_artgs(folder: Path) -> Layout:
 def layout_of_two_states(folder: Path) -> Layout:
     """The layout of the ground truth that PARIS, DTA and ArtGS are compared with."""
     file = folder / "trans.json"
-    rows = _json(file)["trans_info"]
-    claims = [_any_claim(file, row) for row in ([rows] if isinstance(rows, Mapping) else rows)]
+    listed = Row(file, "the file", _json(file)).value("trans_info")
+    claims = [_any_claim(row) for row in _rows(file, listed)]
     start = folder / "start"
     names = [f"start_dynamic_{k}_rotate" for k in range(len(claims))]
     names = ["start_dynamic_rotate"] if len(claims) == 1 else names
@@ -94,30 +88,29 @@ def layout_of_two_states(folder: Path) -> Layout:
     return _layout(folder.name, parts, claims)
 
 
-def _any_claim(file: Path, row: Mapping[str, Any]) -> Claim:
+def _any_claim(row: Row) -> Claim:
     """A row with `axis` (ground truth) or with `axis_direction` (ArtGS)."""
     if "axis" in row:
-        kind = _kind(file, row["type"])
-        ends = row[row["type"]]
-        travel = float(ends["r"]) - float(ends["l"])
-        axis, origin = _vector(row["axis"]["d"]), _vector(row["axis"]["o"])
+        kind, ends, axis = row.kind("type"), row.below(row.value("type")), row.below("axis")
+        travel = ends.number("r") - ends.number("l")
+        direction, point = axis.vector("d"), axis.vector("o")
     else:
-        kind = _kind(file, row.get("joint_type", row.get("type", "")))
-        travel = _number(row["theta"])
-        axis, origin = _vector(row["axis_direction"]), _vector(row["axis_position"])
-    return Claim(kind, axis, origin, math.radians(travel) if kind == REVOLUTE else travel)
+        kind = row.kind("joint_type" if "joint_type" in row else "type")
+        travel = row.number("theta")
+        direction, point = row.vector("axis_direction"), row.vector("axis_position")
+    return Claim(kind, direction, point, math.radians(travel) if kind == REVOLUTE else travel)
 
 
-def _rigid_claim(folder: Path, file: Path, number: int, row: Mapping[str, Any]) -> Claim:
+def _rigid_claim(folder: Path, number: int, row: Row) -> Claim:
     """A joint from the rigid motion (R, t) between the states, as DTA reads it.
 
     A turn leaves the points of its axis in place: (I - R) o = t, solved with the least norm, so
     that a part of t along the axis is left aside.
     """
-    turn, shift = np.array(row["rotation"], float).reshape(3, 3), _vector(row["translation"])
+    turn, shift = row.rotation("rotation"), row.vector("translation")
     half = min(float(np.linalg.norm(turn - np.eye(3))) / math.sqrt(8.0), 1.0)
     angle = 2.0 * math.asin(half)
-    if _dta_kind(folder, file, number, row, angle) == PRISMATIC:
+    if _dta_kind(folder, number, row, angle) == PRISMATIC:
         return Claim(PRISMATIC, shift, np.zeros(3), float(np.linalg.norm(shift)))
     values, vectors = np.linalg.eig(turn)
     axis = np.real(vectors[:, np.argmin(np.abs(values - 1.0))])
@@ -128,13 +121,13 @@ def _rigid_claim(folder: Path, file: Path, number: int, row: Mapping[str, Any]) 
     return Claim(REVOLUTE, axis, origin, angle)
 
 
-def _dta_kind(folder: Path, file: Path, number: int, row: Mapping[str, Any], angle: float) -> int:
+def _dta_kind(folder: Path, number: int, row: Row, angle: float) -> int:
     """What the row says, or the name of the axis mesh, or how far the part turned."""
-    word = row.get("joint_type", row.get("type"))
-    if word is not None:
-        return _kind(file, word)
+    for key in ("joint_type", "type"):
+        if key in row:
+            return row.kind(key)
     for path in sorted(folder.glob(f"init_axis_{number}_*")):
-        return _kind(file, path.stem.rpartition("_")[2])
+        return kind_of(path, path.stem.rpartition("_")[2])
     return REVOLUTE if math.degrees(angle) >= STILL_DEG else PRISMATIC
 
 
@@ -169,33 +162,31 @@ def _mesh(path: Path) -> TriMesh:
 def _json(file: Path) -> Any:
     try:
         return json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise ModelError(f"{file}: the joints cannot be read: {error}") from error
 
 
-def _kind(file: Path, word: str) -> int:
-    if word in TURNING:
-        return REVOLUTE
-    if word in SLIDING:
-        return PRISMATIC
-    known = ", ".join(sorted(TURNING | SLIDING))
-    raise ModelError(f"{file}: joint type {word!r} is none of {known}")
+def _rows(file: Path, listed: Any) -> list[Row]:
+    """The joints of a list, or the only one."""
+    if isinstance(listed, Mapping):
+        listed = [listed]
+    if not isinstance(listed, list):
+        raise ModelError(f"{file}: its joints are {listed!r:.80}, expected a list, a row a joint")
+    return [Row(file, f"joint {k}", stated) for k, stated in enumerate(listed)]
 
 
-def _vector(values: Any) -> Floats:
-    return np.ravel(np.array(values, float))[:3]
-
-
-def _number(value: Any) -> float:
-    return float(np.ravel(np.array(value, float))[0])
-
-
-def _only(folder: Path, pattern: str) -> Path:
-    """The file of that pattern; of several the last by name, which has run the longest."""
+def _last(folder: Path, pattern: str) -> Path:
+    """The file of that pattern; of several, which begin with `it` and a number of updates, that
+    which has run the longest."""
     found = [path for path in sorted(folder.glob(pattern)) if "whole" not in path.name]
     if not found:
         raise ModelError(f"{folder}: no {pattern}; expected the files of one reconstruction")
-    return found[-1]
+    return max(found, key=lambda path: (_updates(path), path.name))
+
+
+def _updates(path: Path) -> int:
+    found = re.match(r"it(\d+)", path.name)
+    return int(found[1]) if found else -1
 
 
 def _first(folder: Path, patterns: Sequence[str]) -> Path:

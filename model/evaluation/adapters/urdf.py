@@ -7,11 +7,13 @@ from xml.etree.ElementTree import ParseError
 
 import numpy as np
 
+from artgen.articulation.targets import TYPE_IDS
 from artgen.articulation.types import Joint
 from artgen.core.errors import ArtgenError, ModelError
 from artgen.core.mesh import Floats, TriMesh
 from artgen.validate.bounds import shipped_bounds
 from artgen.validate.meshfile import as_bodies
+from artgen.validate.stated import StatedJoint
 from artgen.validate.subject import Source
 from artgen.validate.urdf_subject import UrdfSubject
 from model.evaluation.adapters.of_joints import layout_of_joints
@@ -36,10 +38,16 @@ def layout_of_urdf(file: Path, *, root: Path | None = None) -> Layout:
     try:
         if subject.robot.find("link") is None:
             raise ModelError(f"{file} has no <link>; is it a robot description?")
-        parts, joints = subject.parts, subject.joints
+        for joint in subject.stated_joints:
+            _check_axis(joint)
+        with np.errstate(invalid="ignore"):  # An axis of zeros has no direction: nan.
+            parts, joints = subject.parts, subject.joints
         meshes = {part.name: _shape(subject, part.name) for part in parts}
     except (ArtgenError, OSError, ValueError, ParseError) as error:
         raise ModelError(f"{file} states no object that can be scored: {error}") from error
+    if strange := sorted({joint.type for joint in joints} - set(TYPE_IDS)):
+        known = ", ".join(sorted(TYPE_IDS))
+        raise ModelError(f"{file}: joint type {strange[0]!r} is none of fixed, {known}")
     seen = {name: mesh for name, mesh in meshes.items() if mesh is not None}
     if not seen:
         raise ModelError(f"{file}: no part has a shape that can be read; are its meshes beside it?")
@@ -58,6 +66,11 @@ def layout_of_urdf(file: Path, *, root: Path | None = None) -> Layout:
 def layout_of_urdformer(file: Path) -> Layout:
     """The layout of one of URDFormer's files: meshes lie beside its folder, the front is +x."""
     return turned(layout_of_urdf(file, root=file.parent.parent), FRONT_IS_X)
+
+
+def _check_axis(joint: StatedJoint) -> None:
+    if len(joint.axis) != 3 or not np.isfinite(joint.axis).all():
+        raise ModelError(f"axis {joint.axis} of joint {joint.name} is not three finite numbers")
 
 
 def _shape(subject: UrdfSubject, part: str) -> TriMesh | None:

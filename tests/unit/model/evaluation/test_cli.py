@@ -9,10 +9,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from artgen.core.errors import UsageError
+from artgen.core.errors import ModelError, UsageError
 from model.evaluation.cli import evaluate
 from model.evaluation.metrics import METRICS
-from tests.unit.model.evaluation.adapters.outputs import write_singapo, write_urdf
+from tests.unit.model.evaluation.adapters.outputs import (
+    write_paris,
+    write_singapo,
+    write_urdf,
+)
 
 OPTIONS = ["--points", "200", "--part-points", "200", "--mask-pixels", "16", "--workers", "1"]
 
@@ -85,3 +89,39 @@ def test_names_that_do_not_meet_are_told(folders: Path) -> None:
         run(folders)
     with pytest.raises(UsageError, match="expected at least 100"):
         run(folders, "--points", "3")
+
+
+def test_every_system_may_bring_a_bad_object(tmp_path: Path) -> None:
+    """The good one is scored, the bad ones are told, the run ends well."""
+    for name in ("a", "b", "c"):
+        write_singapo(tmp_path / "truth" / name)
+        write_paris(tmp_path / "guess" / name, "rotate")
+    motion = "it20000_test_motion.json"
+    (tmp_path / "guess" / "b" / motion).write_text("{}", encoding="utf-8")
+    (tmp_path / "truth" / "c" / "object.json").write_text('{"arti_tree": []}', encoding="utf-8")
+    found = run(tmp_path)
+    summary = found["summary"]
+    assert isinstance(summary, dict)
+    assert set(summary["failures"]) == {"b", "c"}
+    assert f"b/{motion}: motion states no type" in summary["failures"]["b"]
+    # Two joints each of a and b, of which one is found to turn; c counts nowhere.
+    assert summary["overall"]["joints.nearest.type_right"]["values"] == 4
+    assert summary["overall"]["gates.passed"]["mean"] is None  # PARIS states no simulation.
+    assert found["notes"] == ["1 true objects cannot be read and count nowhere: c."]
+
+
+def test_results_of_other_options_are_not_overwritten(folders: Path) -> None:
+    run(folders, "--no-gates")
+    with pytest.raises(UsageError, match="choose another --out"):
+        run(folders, "--gates")
+    with pytest.raises(UsageError, match="choose another --out"):
+        run(folders, "--no-gates", "--format", "urdf")
+    (folders / "out" / "run.json").write_text("{", encoding="utf-8")
+    with pytest.raises(UsageError, match="choose another --out"):
+        run(folders, "--no-gates")
+
+
+def test_weights_that_are_none_are_told_before_anything_is_scored(folders: Path) -> None:
+    with pytest.raises(ModelError, match="LPIPS needs trunk and heads"):
+        run(folders, "--lpips", str(folders))
+    assert not (folders / "out").exists()

@@ -72,8 +72,20 @@ def test_alpha_goes_over_white() -> None:
     rgba = np.dstack([GRAY * 0.0, np.full((24, 24), 0.25)])
     rgb, mask = over_white(rgba)
     assert np.array_equal(rgb, np.full((24, 24, 3), 0.75))
+    assert mask is not None
     assert not mask.any()
-    assert over_white(GRAY)[1].all()
+
+
+def test_an_image_without_alpha_has_no_mask() -> None:
+    """It would be all foreground, and share every pixel with any other such image."""
+    rgb, mask = over_white(GRAY)
+    assert mask is None
+    assert image_scores(rgb, GRAY, None, None).psnr == MOST_DB
+    half = ALL.copy()
+    half[:12] = False
+    found = image_scores(GRAY, GRAY, mask, half)
+    assert found.mask_iou is None
+    assert found.psnr_foreground == MOST_DB
 
 
 def test_another_size_is_refused() -> None:

@@ -125,6 +125,23 @@ def test_ranges_apart_share_nothing() -> None:
     assert door_of(limits=np.array([(0.0, 0.0), (0.0, 0.5), (2.0, 3.0)])).limit_iou == 0.0
 
 
+def test_points_for_ranges_share_nothing_unless_they_are_one() -> None:
+    point = np.array([(0.0, 0.0), (0.2, 0.2), (1.0, 1.0)])
+    other = np.array([(0.0, 0.0), (0.2, 0.2), (1.5, 1.5)])
+    rows = joint_errors(cabinet(limits=other), cabinet(limits=point), by_order(3, 3))
+    assert [row.limit_iou for row in rows] == [1.0, 0.0]
+    # A share of a range that is a point cannot be asked.
+    assert [row.state_share for row in rows] == [None, None]
+    assert door_of(limits=point).limit_iou == 0.0
+
+
+def test_an_unknown_point_of_the_axis_has_no_line() -> None:
+    origins = np.array([(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (np.nan, 0.0, 0.0)])
+    row = door_of(origins=origins)
+    assert row.line is row.pivot is None
+    assert row.axis_deg == 0.0
+
+
 def test_a_wrong_type_asks_for_no_line() -> None:
     row = door_of(types=np.array([FIXED, PRISMATIC, PRISMATIC]))
     assert not row.type_right

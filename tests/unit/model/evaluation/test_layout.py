@@ -39,6 +39,16 @@ def test_an_unknown_axis_does_not_move() -> None:
     assert np.array_equal(cabinet(axes=axes).poses((0.0, 0.3, 0.0))[1], np.eye(4))
 
 
+@pytest.mark.parametrize("key", ["boxes", "origins", "limits", "states"])
+@pytest.mark.parametrize("value", [2e12, -2e12, math.inf])
+def test_numbers_beyond_all_objects_are_refused(key: str, value: float) -> None:
+    """Their squares and cubes would overflow into metrics that are left out."""
+    values = getattr(cabinet(), key).copy()
+    values[-1, -1] = value
+    with pytest.raises(ModelError, match=r"not finite|at most 1e\+12"):
+        cabinet(**{key: values})
+
+
 def test_placed_moves_as_before() -> None:
     """To scale and then to move is to move by scaled travels and then to scale."""
     layout, q = cabinet(), np.array([0.0, 0.3, 0.9])

@@ -8,7 +8,7 @@ from artgen.core.jsonio import plain
 from model.evaluation.images import image_scores
 from model.evaluation.metrics import METRICS
 from model.evaluation.reshape import placed, taken
-from model.evaluation.score import Protocol, aligned, failed, in_radii, score
+from model.evaluation.score import Protocol, aligned, failed, in_radii, score, unread
 from model.evaluation.summary import summary
 from tests.unit.model.evaluation.layouts import cabinet, with_box_meshes
 from tests.unit.model.evaluation.test_images import ALL, GRAY
@@ -75,6 +75,21 @@ def test_failure_is_the_worst_and_nothing_is_better() -> None:
             assert sign * value >= sign * values[0], name
     assert len(record.metrics["joints.nearest.type_right"]) == 2
     assert "surfaces.rest.chamfer_l1" not in record.metrics
+
+
+def test_what_is_asked_of_no_object_costs_none_anything() -> None:
+    record = failed(cabinet(), "it crashed", idle=("gates.", "images."))
+    assert not any(name.startswith(("gates.", "images.")) for name in record.metrics)
+    assert record.metrics["masks.order.composite"] == [0.0]
+
+
+def test_an_object_without_a_truth_counts_nowhere() -> None:
+    truth = cabinet()
+    found = summary([score(truth, truth, QUICK), unread("other", "no mesh")])
+    assert found.objects == 2
+    assert found.failures == {"other": "the true object is damaged: no mesh"}
+    assert all(own.objects <= 1 for own in found.overall.values())
+    assert set(found.by_parts) == {"03"}
 
 
 def test_a_summary_counts_failures_and_groups() -> None:

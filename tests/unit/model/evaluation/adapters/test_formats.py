@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from artgen.core.errors import ModelError
+from artgen.core.errors import ArtgenError, ModelError
 from model.evaluation.adapters.formats import places
 from tests.unit.model.evaluation.adapters.outputs import (
     write_artgs,
@@ -55,3 +55,14 @@ def test_nothing_to_score_is_told(tmp_path: Path) -> None:
         places(tmp_path, "urdff")
     with pytest.raises(ModelError, match="is no folder"):
         places(tmp_path / "none")
+
+
+def test_a_damaged_bundle_is_found_by_its_folder(tmp_path: Path) -> None:
+    """It fails where it is read, and the others are found."""
+    for place, text in (("laptop/000000", "{"), ("mine", "[]"), ("good", '{"asset_id": "one"}')):
+        (tmp_path / place).mkdir(parents=True)
+        (tmp_path / place / "manifest.json").write_text(text, encoding="utf-8")
+    found = places(tmp_path)
+    assert sorted(found) == ["laptop_000000", "mine", "one"]
+    with pytest.raises(ArtgenError, match=r"laptop/000000/manifest\.json cannot be read"):
+        found["laptop_000000"].read()

@@ -41,6 +41,15 @@ def test_paris_slides_twice_its_half(tmp_path: Path) -> None:
     assert layout.states.tolist() == [[0.0, 0.0], [0.0, 0.5]]
 
 
+def test_the_longest_run_of_paris_is_read(tmp_path: Path) -> None:
+    """By its number of updates: by name, it5000 would come after it20000."""
+    folder = write_paris(tmp_path, "rotate")
+    for path in list(folder.iterdir()):
+        early = folder / path.name.replace("it20000", "it5000")
+        early.write_text("damaged", encoding="utf-8")
+    assert len(layout_of_paris(folder)) == 2
+
+
 def test_dta_states_rigid_motions(tmp_path: Path) -> None:
     layout = layout_of_dta(write_dta(tmp_path / "step_0004000"))
     assert layout.types.tolist() == [0, PRISMATIC, REVOLUTE]
