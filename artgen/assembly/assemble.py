@@ -111,6 +111,8 @@ def assembled(market: Market, template: str, stream: Stream) -> Assembled | Give
     looks = drawn_looks(stream.child("looks"))
     open_before = template_open(source)
     plan = first_plan(source, groups, stream)
+    if not handles:
+        plan.handle = None
     plan.tried += [f"{_named(group)}: no donor suits" for group in groups if not group.donors]
     for _ in range(ROUNDS):
         slots = sum(len(group.slots) for group in groups)
@@ -295,7 +297,7 @@ class _Attempt:
         how = {} if donor is member else {"scale": scale, "mirrored": fill.mirrored}
         self._tell(member.name, donor.kind, source, of=donor.name, **how)
 
-    def _tell(self, part: str, piece: str, source: Source, *, of: str, **more: object) -> None:
+    def _tell(self, part: str, piece: str, source: Source, *, of: str, **more: Any) -> None:
         """Where a piece of a part comes from; its terms and family bind the whole."""
         self.donors.add(source.family)
         self.datasets.add(source.dataset)

@@ -15,11 +15,17 @@ from artgen.core.mesh import Floats
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Case:
-    """An object beside its template and the sources of its parts, by id."""
+    """An object beside its template and the sources of its parts, by id.
+
+    Attributes:
+        body_splits, handle_splits: shape to the one split that offers it.
+    """
 
     new: Assembled
     template: Source
     sources: Mapping[str, Source]
+    body_splits: Mapping[str, str]
+    handle_splits: Mapping[str, str]
 
     @property
     def shift(self) -> Floats:
@@ -64,4 +70,6 @@ def case_of(new: Assembled, library: Library) -> Case:
         new=new,
         template=library.source(new.template),
         sources={id: library.source(id) for id in ids},
+        body_splits=library.body_splits,
+        handle_splits=library.handle_splits,
     )

@@ -161,9 +161,14 @@ class Market:
         return [self.donors[common[k]] for k in np.argsort(-draw)]
 
     def handle_order(self, split: str, stream: Stream) -> list[Entry]:
-        """Handles of a split in the order in which they are tried."""
+        """Handles that a split offers in the order in which they are tried.
+
+        Those that another split offers are left out of what was drawn, so that they move no other.
+        """
         own = [entry for entry in self.handles if entry.split == split]
-        return [own[k] for k in stream.generator().permutation(len(own))]
+        drawn = [own[k] for k in stream.generator().permutation(len(own))]
+        offered = self.library.handle_splits
+        return [entry for entry in drawn if offered[entry.handle_shape] == split]
 
 
 def _distinct(entries: Iterable[Entry]) -> list[Entry]:

@@ -19,7 +19,7 @@ from artgen.assembly.evenness import density_by_part, density_by_surface
 from artgen.assembly.licence import most_restrictive
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.piece import Piece, body_volumes
-from artgen.assembly.shape_hash import tree_hash
+from artgen.assembly.shape_hash import shape_hash, tree_hash
 from artgen.assembly.source import Member
 from artgen.assembly.texels import STRETCH, stretch
 from artgen.assembly.uv_fix import areas
@@ -298,14 +298,28 @@ def licensed(case: Case) -> Iterator[Broken]:
 
 
 def held_out(case: Case) -> Iterator[Broken]:
-    """16: template and donors are of one split."""
+    """16: template and donors are of one split, and what donors give is offered in that split."""
     used = {str(entry["source"]) for entry in case.new.sources} | {case.template.id}
     families = {case.sources[id].family for id in used}
     if missing := families - set(case.new.donors):
         value = f"{sorted(missing)} not listed"
         yield Broken(number=16, part="object", value=value, bound="every family among the donors")
-    if split_of("", case.new.donors) is None:
+    own = split_of("", case.new.donors)
+    if own is None:
         yield Broken(number=16, part="object", value="two splits", bound="one split")
+    for entry in case.new.sources:
+        offered = None if entry["source"] == case.template.id else _offered(case, entry)
+        if offered is not None and offered != own:
+            value, bound = f"its {entry['piece']} is offered in {offered}", f"in {own} alone"
+            yield Broken(number=16, part=str(entry["part"]), value=value, bound=bound)
+
+
+def _offered(case: Case, entry: Mapping[str, object]) -> str:
+    """The split that offers what an entry names; nowhere if none does."""
+    donor = _donor(case, entry)
+    if entry["piece"] == "handle" and donor.handle is not None:
+        return case.handle_splits.get(shape_hash(donor.handle.mesh), "nowhere")
+    return case.body_splits.get(shape_hash(donor.body.mesh), "nowhere")
 
 
 def _broken(number: int, member: Member, value: float | str, bound: str) -> Broken:

@@ -1,9 +1,9 @@
 """The library's index: what each source can give and take, told without reading a mesh."""
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -196,10 +196,18 @@ def seal_library(folder: Path, ids: Iterable[str], *, recipe: object) -> str:
     return digest
 
 
-def _without_shared(rows: Iterable[Entry]) -> list[Entry]:
+def _without_shared(rows: Sequence[Entry]) -> list[Entry]:
     """Rows of bodies whose shape has not been met in another split before."""
+    owner = _first_splits((row.shape, row.split) for row in rows)
+    return [row for row in rows if owner[row.shape] == row.split]
+
+
+def _first_splits(met: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Shape to the first split that it is met in."""
     owner: dict[str, str] = {}
-    return [row for row in rows if owner.setdefault(row.shape, row.split) == row.split]
+    for shape, split in met:
+        owner.setdefault(shape, split)
+    return owner
 
 
 class Library:
@@ -213,6 +221,16 @@ class Library:
             raise UsageError(f"{folder}: its index has other columns; build the library anew")
         self.entries = tuple(_from_row(row) for row in table.to_pylist())
         self.source = lru_cache(maxsize=PER_PROCESS)(self._read)
+
+    @cached_property
+    def body_splits(self) -> Mapping[str, str]:
+        """Shape of a body to the one split that offers it."""
+        return _first_splits((e.shape, e.split) for e in self.entries)
+
+    @cached_property
+    def handle_splits(self) -> Mapping[str, str]:
+        """Shape of a handle to the one split that offers it: that of its first source."""
+        return _first_splits((e.handle_shape, e.split) for e in self.entries if e.handle)
 
     def _read(self, id: str) -> Source:
         return read_source(self.folder, id)

@@ -251,3 +251,16 @@ def test_16_a_donor_that_is_not_named(cases):
     used = case.new.given[0]["source"]
     sources = {**case.sources, used: replace(case.sources[used], family="unnamed")}
     assert numbers(invariants.held_out(replace(case, sources=sources))) == {16}
+
+
+def test_16_a_front_or_a_handle_that_another_split_offers(cases):
+    """Once only families were looked at."""
+    case = next(c for c in cases if any(e["piece"] == "handle" and e["source"] != c.template.id
+                                        for e in c.new.sources))  # fmt: skip
+    assert not numbers(invariants.held_out(case))
+    for key, pieces in (("handle_splits", {"handle"}), ("body_splits", {"front", "whole"})):
+        splits = dict.fromkeys(getattr(case, key), "elsewhere")
+        faults = list(invariants.held_out(replace(case, **{key: splits})))
+        assert numbers(faults) == {16}
+        told = {fault.value.split()[1] for fault in faults}
+        assert told <= pieces

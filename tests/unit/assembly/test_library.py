@@ -10,6 +10,7 @@ import pytest
 from artgen.assembly.choice import Market, suits
 from artgen.assembly.library import MOST_PARTS, Library, is_slot, seal_library, write_library
 from artgen.assembly.licence import KNOWN
+from artgen.assembly.shape_hash import shape_hash
 from artgen.assembly.store import read_source
 from artgen.core.errors import UsageError
 from artgen.core.stream import Stream
@@ -71,6 +72,30 @@ def test_a_shape_is_not_offered_in_two_splits(tmp_path, made_sources):
     splits = {}
     for entry in entries:
         assert splits.setdefault(entry.shape, entry.split) == entry.split
+
+
+def test_a_handle_is_not_offered_in_two_splits(tmp_path, made_sources):
+    """Fronts alone were held apart: one knob was offered in all three splits."""
+    one, two = made_sources[:2]
+    knob = next(member.handle for member in one.members if member.handle)
+    given = tuple(replace(m, handle=knob) if m.handle else m for m in two.members)
+    families = {split_of(f"x{k}"): f"x{k}" for k in range(99)}
+    sources = [
+        replace(one, family=families["val"]),
+        replace(two, family=families["train"], members=given),
+    ]
+    write_library(tmp_path, sources, recipe={})
+    market = Market(Library(tmp_path), ("storage_furniture", "cabinet"))
+    shape = shape_hash(knob.mesh)
+    assert {e.split for e in market.handles if e.handle_shape == shape} == {"train", "val"}
+    offered = [
+        split
+        for split in ("train", "val", "test")
+        for entry in market.handle_order(split, Stream(0))
+        if entry.handle_shape == shape
+    ]
+    first = min(sources, key=lambda source: source.id)
+    assert offered == [split_of(first.family)]
 
 
 def test_a_folder_that_is_no_library_is_told(tmp_path):

@@ -114,6 +114,17 @@ def test_new_objects_change_fronts_and_keep_the_body(cases):
         assert case.template.id not in used
 
 
+def test_where_no_handle_is_offered_each_front_keeps_its_own(market, monkeypatch):
+    """A split of few sources may have none; there was no first one to try."""
+    monkeypatch.setattr(Market, "handle_order", lambda self, split, stream: [])
+    made = [new_object(market, WHAT, 1, index) for index in range(4)]
+    objects = [new for new in made if isinstance(new, Assembled)]
+    handles = [(e["source"], new.template) for new in objects for e in new.sources
+               if e["piece"] == "handle"]  # fmt: skip
+    assert handles
+    assert all(source == template for source, template in handles)
+
+
 def test_one_wood_one_metal(cases):
     """All panels of fronts look alike, and all handles."""
     for case in cases:
