@@ -93,8 +93,9 @@ def licence(foreign: ForeignObject, options: Options) -> Licence:
     """The most restrictive of what binds it: the terms of its data set, what the source states,
     and what the user does, who can name terms but not lift any."""
     stated, origin = foreign.note.get("licence"), foreign.note.get("source")
-    sets = [foreign.dataset, origin.get("dataset") if isinstance(origin, Mapping) else None]
-    bound = [LICENCES[name] for name in sets if isinstance(name, str) and name in LICENCES]
+    of_old = origin.get("dataset") if isinstance(origin, Mapping) else None
+    sets = [foreign.dataset, *str(of_old).split("+")]  # Assembled objects name several.
+    bound = [LICENCES[name] for name in sets if name in LICENCES]
     if isinstance(stated, Mapping) and isinstance(stated.get("id"), str):
         bound.append(KNOWN.get(stated["id"], UNSTATED))
     if options.licence is not None:

@@ -30,8 +30,11 @@ def foreign(dataset: str, note: Mapping[str, object] | None = None) -> ForeignOb
 def test_no_word_of_the_user_lifts_the_terms_of_partnet(word: str | None) -> None:
     """`--licence CC0-1.0` made a PartNet-Mobility object distributable; a folder that we exported
     from one is as bound, whatever became of the line that says so."""
-    exported = foreign("artgen-export", {"source": {"dataset": "partnet-mobility"}})
-    for one in (foreign("partnet-mobility"), exported):
+    exported = [
+        foreign("artgen-export", {"source": {"dataset": name}})
+        for name in ("partnet-mobility", "partnet-mobility+urdf")
+    ]
+    for one in (foreign("partnet-mobility"), *exported):
         terms = licence(one, Options(licence=word))
         assert not terms.distributable
         assert not licence_of({"licence": plain(terms)}).distributable
