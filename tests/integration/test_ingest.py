@@ -1,6 +1,7 @@
 """A run from folders to bundles, and back to folders."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ from artgen.export import read_bundle
 from artgen.ingest.cli import partnet
 from artgen.ingest.export_cli import partnet as export_partnet
 from artgen.validate import validate_bundle
-from tests.unit.ingest.folders import cabinet
+from tests.unit.ingest.folders import cabinet, slide
 
 
 @pytest.mark.blender
@@ -40,3 +41,34 @@ def test_folders_become_valid_bundles_and_a_second_run_keeps_them(tmp_path: Path
     assert (tmp_path / "back/pm_45940/mobility_v2.json").exists()
     note = json.loads((tmp_path / "back/pm_45940/artgen.json").read_text())
     assert note["licence"]["id"] == "LicenseRef-PartNet-Mobility"
+
+
+def files_of(folder: Path) -> dict[str, bytes]:
+    """Every file of a folder by its place."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+@pytest.mark.blender
+def test_any_number_of_workers_and_a_resumed_run_make_the_same_bytes(tmp_path: Path) -> None:
+    """Two objects by one process after the other, and side by side; then one is deleted and made
+    anew, while the other is left as it is."""
+    data, one, two = (tmp_path / name for name in ("data", "one", "two"))
+    cabinet().write(data / "45940")
+    cabinet(drawer=slide(0.0, 0.3)).write(data / "45941")
+    words = [str(data), "--pieces", "0", "--out"]
+    assert partnet([*words, str(one), "--workers", "1"]) == 0
+    assert partnet([*words, str(two), "--workers", "2"]) == 0
+    made = files_of(one / "assets")
+    assert files_of(two / "assets") == made
+    assert files_of(one)["ingest_report.json"] == files_of(two)["ingest_report.json"]
+    homes = [two / f"assets/storage_furniture/pm_{name}" for name in ("45940", "45941")]
+    assert {path.split("/")[1] for path in made} == {home.name for home in homes}
+    kept = {path: path.stat().st_mtime_ns for path in homes[1].rglob("*")}
+    shutil.rmtree(homes[0])
+    assert partnet([*words, str(two), "--workers", "2"]) == 0
+    assert files_of(two / "assets") == made
+    assert {path: path.stat().st_mtime_ns for path in homes[1].rglob("*")} == kept
