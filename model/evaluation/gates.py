@@ -88,6 +88,18 @@ def _clear(subject: Subject, reasons: dict[str, str]) -> tuple[bool | None, floa
 
 
 Run = Callable[[Subject], Said]
+FAULTS = (
+    ArtgenError,
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    OSError,
+    ArithmeticError,
+    SyntaxError,
+    RecursionError,
+)
+"""What a check raises on a file that lacks something, or holds something else."""
 
 
 def _said(subject: Subject, checks: Iterable[Run]) -> list[object]:
@@ -96,7 +108,7 @@ def _said(subject: Subject, checks: Iterable[Run]) -> list[object]:
     for check in checks:
         try:
             found += check(subject)
-        except (ArtgenError, ValueError, KeyError, OSError, ArithmeticError, SyntaxError) as error:
+        except FAULTS as error:
             found.append(
                 Finding(
                     check="evaluation.gate",

@@ -24,6 +24,7 @@ POOLED = (False, True, True, False, False)
 """Whether the largest of 3 x 3 px, every second one, comes before a layer."""
 LEAST_PX = 64
 TINY = 1e-10
+EXPECTED = "expected torchvision's AlexNet and the heads of the package lpips"
 TRUNKS, HEADS = ("alexnet*.pth",), ("alex.pth", "lpips_alex.pth")
 
 
@@ -34,7 +35,7 @@ class Lpips:
         """Take the weights.
 
         Raises:
-            ModelError: a layer is missing.
+            ModelError: a layer is missing, or of another shape.
         """
         try:
             self._layers = [
@@ -42,11 +43,11 @@ class Lpips:
                 for n, stride, margin in CONVOLUTIONS
             ]
             self._heads = [heads[f"lin{k}.model.1.weight"] for k in range(len(CONVOLUTIONS))]
+            self(np.zeros((LEAST_PX, LEAST_PX, 3)), np.ones((LEAST_PX, LEAST_PX, 3)))
         except KeyError as error:
-            raise ModelError(
-                f"LPIPS: the weights lack {error}; expected torchvision's AlexNet and the heads of "
-                "the package lpips"
-            ) from error
+            raise ModelError(f"LPIPS: the weights lack {error}; {EXPECTED}") from error
+        except (TypeError, AttributeError, RuntimeError) as error:
+            raise ModelError(f"LPIPS: weights of something else ({error}); {EXPECTED}") from error
 
     @torch.inference_mode()
     def __call__(self, predicted: Floats, true: Floats) -> float | None:
@@ -87,10 +88,10 @@ def _weights(folder: Path, names: tuple[str, ...]) -> Mapping[str, Tensor]:
     for name in names:
         for path in sorted(folder.glob(name)):
             try:
-                found: Mapping[str, Tensor] = torch.load(
-                    path, map_location="cpu", weights_only=True
-                )
-                return found
+                found = torch.load(path, map_location="cpu", weights_only=True)
             except Exception as error:  # torch raises what its readers raise.
                 raise ModelError(f"{path} holds no weights: {error}") from error
+            if not isinstance(found, Mapping):
+                raise ModelError(f"{path} holds no weights but {type(found).__name__}; {EXPECTED}")
+            return found
     raise ModelError(f"{folder} has no {' or '.join(names)}; LPIPS needs trunk and heads")

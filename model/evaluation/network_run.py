@@ -36,6 +36,7 @@ from model.evaluation.predictors import (
 from model.evaluation.records import keep_record, kept_record, picture_path
 from model.evaluation.reshape import rebased
 from model.evaluation.score import Protocol, Record, failed, score
+from model.evaluation.surfaces import has_surface
 from model.fitting.object_fit import FitConfig
 from model.network.encoders.registry import make_encoder
 from model.training.art_file import load_art
@@ -101,22 +102,49 @@ def run(asked: NetworkRun, protocol: Protocol, folder: Path) -> list[Record]:
         for item in held_out(source, config, count=asked.count, seed=protocol.seed):
             record = kept_record(folder, item.name, key)
             if record is None:
-                record = judged(predictor, item, protocol, folder)
+                idle = never_asked(asked, protocol, item)
+                record = judged(predictor, item, protocol, folder, idle=idle)
                 keep_record(folder, record, key)
             records.append(record)
             advance(record.name)
     return records
 
 
-def judged(predictor: Predictor, item: HeldOut, protocol: Protocol, folder: Path) -> Record:
-    """Predict and score one object, and keep its picture."""
+def judged(
+    predictor: Predictor,
+    item: HeldOut,
+    protocol: Protocol,
+    folder: Path,
+    *,
+    idle: Sequence[str] = (),
+) -> Record:
+    """Predict and score one object, and keep its picture.
+
+    Args:
+        idle: beginnings of the metrics that are asked of no object.
+    """
     try:
         guess = predictor(item)
+        true = item.layout if guess.rest is None else rebased(item.layout, guess.rest)
+        record = score(guess.layout, true, protocol, images=guess.images, gates=guess.gates)
+        write_bytes(picture_path(folder, item.name), strip(guess.layout, true))
     except ArtgenError as error:
-        return failed(item.layout, str(error))
-    true = item.layout if guess.rest is None else rebased(item.layout, guess.rest)
-    write_bytes(picture_path(folder, item.name), strip(guess.layout, true))
-    return score(guess.layout, true, protocol, images=guess.images, gates=guess.gates)
+        return failed(item.layout, str(error), idle=idle)
+    return record
+
+
+def never_asked(asked: NetworkRun, protocol: Protocol, item: HeldOut) -> tuple[str, ...]:
+    """Beginnings of the metrics that a run asks of no prediction."""
+    network = Path(asked.predictions).is_file()
+    more_views = item.everything.images.rgb_BTV3HW.shape[2] > item.shown.images.rgb_BTV3HW.shape[2]
+    formed = (network and asked.resolution > 0) or asked.predictions == "fit"
+    held = {
+        "masks.": protocol.mask_pixels > 0,
+        "gates.": network and asked.gated,
+        "images.": network and asked.samples > 0 and not asked.noisy and more_views,
+        "surfaces.": formed and has_surface(item.layout),
+    }
+    return tuple(beginning for beginning, is_asked in held.items() if not is_asked)
 
 
 def run_key(asked: NetworkRun, protocol: Protocol) -> str:

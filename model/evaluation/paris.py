@@ -57,7 +57,8 @@ def paris(predicted: Layout, true: Layout, matching: Matching) -> ParisScores:
     sliding = [pair for pair in pairs if pair not in turning]
     angles = [_unsigned(predicted.axes[p], true.axes[t]) for p, t in pairs]
     lines = [(predicted.origins[p], predicted.axes[p], true.origins[t], true.axes[t])
-             for p, t in turning if np.isfinite(predicted.axes[p]).all()]  # fmt: skip
+             for p, t in turning]  # fmt: skip
+    lines = [line for line in lines if np.isfinite(line).all()]
     chamfers = _chamfers(predicted, true, matching)
     return ParisScores(
         axis_deg=_mean(angles),

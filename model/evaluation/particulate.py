@@ -108,6 +108,8 @@ def part_points(layout: Layout, count: int, rng: np.random.Generator) -> list[Fl
     own = [posed_triangles(layout, np.tile(np.eye(4), (len(layout), 1, 1)), [k])
            for k in range(len(layout))]  # fmt: skip
     areas = np.array([_area(triangles) for triangles in own])
+    if not areas.any():  # Lines and points, as a failed reconstruction may leave: evenly.
+        areas = np.ones(len(own))
     shares = np.maximum(np.round(count * areas / areas.sum()), 1).astype(int)
     return [sampled(t, int(n), rng).points for t, n in zip(own, shares, strict=True)]
 

@@ -9,7 +9,7 @@ from artgen.core.jsonio import write_json
 from model.evaluation.joints import JointErrors
 from model.evaluation.score import Record
 
-SCHEMA = "artgen-evaluation-object/1"
+SCHEMA = "artgen-evaluation-object/2"
 
 
 def record_path(folder: Path, name: str) -> Path:

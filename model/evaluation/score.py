@@ -186,13 +186,14 @@ def nearest(predicted: Layout, true: Layout) -> Matching:
 
 
 def _published(predicted: Layout, true: Layout, protocol: Protocol) -> dict[str, float | None]:
-    rest, states = published_chamfers(predicted, true)
+    handles = protocol.handles
+    rest, states = published_chamfers(predicted, true, handles=handles)
     return {
-        **asdict(published(predicted, true, handles=protocol.handles)),
+        **asdict(published(predicted, true, handles=handles)),
         "rs_dcd": rest,
         "as_dcd": states,
-        "aor": overlap_ratio_published(predicted),
-        "aor_true": overlap_ratio_published(true),
+        "aor": overlap_ratio_published(predicted, handles=handles),
+        "aor_true": overlap_ratio_published(true, handles=handles),
     }
 
 

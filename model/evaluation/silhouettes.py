@@ -73,8 +73,11 @@ class _Tally:
         """One view of one state."""
         self._composite.append(mask_iou(seen.any(axis=0), wanted.any(axis=0)))
         for p, t in matching.pairs:
-            own = self._moving if true.movable[t] else self._base
-            own.append(mask_iou(seen[p], wanted[t]))
+            own = mask_iou(seen[p], wanted[t])
+            if t == 0:
+                self._base.append(own)
+            elif true.movable[t]:
+                self._moving.append(own)
         self._moving += [0.0 for t in matching.loose_true if true.movable[t]]
 
     def scores(self) -> MaskScores:

@@ -22,6 +22,7 @@ from artgen.core.mesh import Floats
 from artgen.core.stream import Stream
 from artgen.core.transform import apply, inverted
 from model.evaluation.boxes import (
+    THIN,
     enclosing,
     generalized,
     giou_moved,
@@ -62,10 +63,16 @@ def compared_as_published(
 ) -> tuple[Layout, Layout]:
     """Both layouts centered, the predicted one stretched to the true one's size."""
     if not handles:
-        predicted, true = (without(own, lambda label: label == HANDLE) for own in (predicted, true))
+        predicted, true = without_handles(predicted), without_handles(true)
     predicted, true = (placed(own, shift=-own.bounds.mean(axis=0)) for own in (predicted, true))
     mine, wanted = (own.bounds[1] - own.bounds[0] for own in (predicted, true))
-    return stretched(predicted, wanted / np.where(mine > 0.0, mine, 1.0)), true
+    thick = mine > THIN * mine.max()  # What has no thickness cannot be stretched to one.
+    return stretched(predicted, np.where(thick, wanted, 1.0) / np.where(thick, mine, 1.0)), true
+
+
+def without_handles(layout: Layout) -> Layout:
+    """The layout without parts labelled `handle`."""
+    return without(layout, lambda label: label == HANDLE)
 
 
 def published(predicted: Layout, true: Layout, *, handles: bool = True) -> BoxScores:
@@ -149,11 +156,13 @@ def _scores(overlaps: Floats, distances: Floats) -> BoxScores:
     )
 
 
-def overlap_ratio_published(layout: Layout) -> float:
+def overlap_ratio_published(layout: Layout, *, handles: bool = True) -> float:
     """AOR: IoU of siblings' boxes by 10,000 points, mean over pairs and 10 states; less is better.
 
     0 where no two parts are siblings.
     """
+    if not handles:
+        layout = without_handles(layout)
     rng = Stream(0, "evaluation", "aor", layout.name).generator()
     pairs = sibling_pairs(layout)
     found = []

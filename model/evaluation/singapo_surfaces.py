@@ -19,9 +19,11 @@ from model.evaluation.surfaces import chamfer_squared, sampled
 POINTS = 2048
 
 
-def published_chamfers(predicted: Layout, true: Layout) -> tuple[float | None, float | None]:
+def published_chamfers(
+    predicted: Layout, true: Layout, *, handles: bool = True
+) -> tuple[float | None, float | None]:
     """(RS-dCD, AS-dCD) in the unit of the layouts squared; None where a part has no surface."""
-    predicted, true = compared_as_published(predicted, true)
+    predicted, true = compared_as_published(predicted, true, handles=handles)
     stream = Stream(0, "evaluation", "singapo_surfaces", true.name)
     clouds = [_points(own, stream.child(str(k))) for k, own in enumerate((predicted, true))]
     if clouds[0] is None or clouds[1] is None:

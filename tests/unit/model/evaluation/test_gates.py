@@ -70,3 +70,10 @@ def test_without_limits_it_does_not_load(tmp_path: Path) -> None:
 @pytest.mark.parametrize("mass", ["0", "nan"])
 def test_a_body_without_mass_fails_and_does_not_raise(tmp_path: Path, mass: str) -> None:
     assert not drawer(tmp_path, mass=mass).passed
+
+
+@pytest.mark.parametrize("text", ["null", "{}", "[3]", "{", ""])
+def test_a_bundle_of_something_else_fails_and_does_not_raise(tmp_path: Path, text: str) -> None:
+    file = tmp_path / "manifest.json"
+    file.write_text(text, encoding="utf-8")
+    assert not gates(Source(format="bundle", file=file, root=tmp_path)).loads

@@ -88,6 +88,12 @@ def test_weights_come_from_files(tmp_path: Path) -> None:
     torch.save(trunk, tmp_path / "alex.pth")
     with pytest.raises(ModelError, match=r"lack 'lin0\.model\.1\.weight'"):
         load_lpips(tmp_path)
+    other = {key: value[:, :2] for key, value in heads.items()}
+    for wrong, told in ((other, "weights of something else"), (torch.zeros(3), "but Tensor"),
+                        (dict.fromkeys(heads), "weights of something else")):  # fmt: skip
+        torch.save(wrong, tmp_path / "alex.pth")
+        with pytest.raises(ModelError, match=told):
+            load_lpips(tmp_path)
     (tmp_path / "alex.pth").write_bytes(b"no weights")
     with pytest.raises(ModelError, match="holds no weights"):
         load_lpips(tmp_path)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import torch
 
-from artgen.core.errors import UsageError
+from artgen.core.errors import ModelError, UsageError
 from artgen.core.stream import Stream
 from artgen.dataset.members import EncodedSample
 from artgen.dataset.shard import write_shard
@@ -17,9 +17,16 @@ from model.data.scene import drawn_scene
 from model.data.soup_source import SoupSource
 from model.data.truth import articulation as articulation_of
 from model.evaluation.cli import evaluate
-from model.evaluation.held_out import flips
-from model.evaluation.network_run import NetworkRun, run_key, shown_to, training_items
-from model.evaluation.predictors import counted_from_first, with_more_states
+from model.evaluation.held_out import HeldOut, flips, held_out
+from model.evaluation.network_run import (
+    NetworkRun,
+    judged,
+    never_asked,
+    run_key,
+    shown_to,
+    training_items,
+)
+from model.evaluation.predictors import Guess, counted_from_first, with_more_states
 from model.evaluation.score import Protocol
 from model.network.art import Art
 from model.training.art_file import ModelCard, save_art
@@ -86,6 +93,40 @@ def test_a_baseline_without_training_objects_is_told(place: Path) -> None:
     assert not (place / "none" / "run.json").exists()
     with pytest.raises(UsageError, match="did you mean 'pixels'"):
         run(place, "pixel", "none")
+
+
+def test_a_prediction_that_fails_is_asked_what_the_others_are(tmp_path: Path) -> None:
+    """Neither gates nor images of a baseline; masks where they have pixels."""
+    config = dataclasses.replace(CONFIG, rest="closed")
+    (item,) = held_out(SoupSource(library()), config, count=1)
+
+    def lost(_: HeldOut) -> Guess:
+        raise ModelError("the loss is not a number")
+
+    def elsewhere(own: HeldOut) -> Guess:
+        return Guess(own.layout, {}, rest=7)
+
+    protocol = Protocol(points=100, part_points=100, mask_pixels=8)
+    mean = NetworkRun(**{**ASKED, "predictions": "mean", "gated": True, "samples": 4})
+    idle = never_asked(mean, protocol, item)
+    assert idle == ("gates.", "images.", "surfaces.")
+    for predictor, told in ((lost, "not a number"), (elsewhere, "no state 7")):
+        record = judged(predictor, item, protocol, tmp_path, idle=idle)
+        assert record.failure is not None
+        assert told in record.failure
+        assert record.metrics["masks.nearest.composite"] == [0.0]
+        assert not any(name.startswith(idle) for name in record.metrics)
+
+    network = tmp_path / "art.safetensors"
+    network.write_bytes(b"")
+    asked = NetworkRun(
+        **{**ASKED, "predictions": str(network), "gated": True, "samples": 4, "resolution": 8}
+    )
+    assert never_asked(asked, protocol, item) == ()
+    blank = dataclasses.replace(protocol, mask_pixels=0)
+    assert never_asked(asked, blank, item) == ("masks.",)
+    noisy = dataclasses.replace(asked, pose_noise=0.1, gated=False, resolution=0)
+    assert never_asked(noisy, protocol, item) == ("gates.", "images.", "surfaces.")
 
 
 def test_noise_of_poses_is_what_is_asked_for() -> None:

@@ -50,3 +50,10 @@ def test_chamfer_distances_are_in_thousandths_and_nothing_is_aligned() -> None:
         1000.0 * 2.0 * 6.0 / (math.pi * 10_000.0), rel=0.1
     )  # Mean squared neighbor distance A / (pi N) of 10,000 samples on an area of 6, twice.
     assert scores().cd_whole is None
+
+
+def test_a_line_without_a_point_leaves_the_others() -> None:
+    hinges = cabinet(types=np.array([0, 1, 1]), states=None)
+    origins = np.array([(0.0, 0.0, 0.0), (np.nan, 0.0, 0.0), (0.0, 0.3, 0.0)])
+    guess = cabinet(types=hinges.types, origins=origins, states=None)
+    assert paris(guess, hinges, by_order(3, 3)).position == pytest.approx(3.0, abs=1e-14)

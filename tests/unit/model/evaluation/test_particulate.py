@@ -1,8 +1,11 @@
 """Particulate's scores: punishment in closed form, distances against a plain implementation."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from artgen.core.mesh import TriMesh
 from model.evaluation.particulate import in_cube, part_points, particulate
 from model.evaluation.reshape import placed, taken
 from tests.unit.model.evaluation.layouts import cabinet, with_box_meshes
@@ -25,6 +28,15 @@ def test_without_surfaces_there_are_no_distances() -> None:
     found = particulate(cabinet(), cabinet(), points=POINTS)
     assert found.rest_pc is found.rest_oc is None
     assert found.full_miou.punished == pytest.approx(1.0, abs=1e-12)
+
+
+def test_surfaces_without_area_have_points_all_the_same() -> None:
+    """Lines are what is left of a part that a system did not find."""
+    line = TriMesh(vertices=np.eye(3)[:1] * [[0.0], [0.5], [1.0]], faces=[[0, 1, 2]])
+    truth = with_box_meshes(cabinet())
+    found = particulate(replace(truth, meshes=(line,) * 3), truth, points=POINTS)
+    assert found.rest_pc is not None
+    assert found.rest_pc.punished > 0.1
 
 
 def test_a_missing_part_is_punished_in_one_direction() -> None:

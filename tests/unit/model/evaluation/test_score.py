@@ -1,6 +1,7 @@
 """Records: which metrics an object brings, and what failure costs."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -75,6 +76,23 @@ def test_failure_is_the_worst_and_nothing_is_better() -> None:
             assert sign * value >= sign * values[0], name
     assert len(record.metrics["joints.nearest.type_right"]) == 2
     assert "surfaces.rest.chamfer_l1" not in record.metrics
+
+
+def test_without_handles_all_published_metrics_are_without_them() -> None:
+    """The door as a handle far off its place: it counts, or it does not."""
+    truth = with_box_meshes(cabinet(labels=("base", "drawer", "handle")))
+    boxes = truth.boxes.copy()
+    boxes[2] = boxes[1]
+    guess = with_box_meshes(cabinet(labels=truth.labels, boxes=boxes))
+    without, with_them = (
+        score(guess, truth, replace(QUICK, handles=handles)).metrics for handles in (False, True)
+    )
+    for name in ("rs_dgiou", "rs_dcdist", "aor"):
+        key = f"singapo.published.{name}"
+        assert without[key] == pytest.approx([0.0], abs=1e-12), name
+        assert with_them[key][0] > 0.05, name
+    # Samples of the two parts that are left, as in test_singapo_surfaces, in radii squared.
+    assert without["singapo.published.rs_dcd"][0] < 5e-3 < with_them["singapo.published.rs_dcd"][0]
 
 
 def test_what_is_asked_of_no_object_costs_none_anything() -> None:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
+from artgen.articulation.targets import FIXED, PRISMATIC
 from model.evaluation.boxes import corners
 from model.evaluation.matching import by_nearness, by_order
 from model.evaluation.reshape import placed, taken
@@ -51,3 +52,15 @@ def test_a_missing_part_counts_nothing_and_a_shifted_one_less() -> None:
         placed(truth, shift=(9.0, 0.0, 0.0)), truth, {"order": by_order(3, 3)}, pixels=PIXELS
     )
     assert away["order"].composite == 0.0
+
+
+def test_the_base_is_the_base_alone() -> None:
+    """A fixed part that is not it, such as a handle, is seen in the whole object only."""
+    truth = cabinet(types=np.array([FIXED, PRISMATIC, FIXED]))
+    boxes = truth.boxes.copy()
+    boxes[2] += (0.0, -9.0, 0.0)
+    guess = cabinet(types=truth.types, boxes=boxes)
+    found = mask_scores(guess, truth, {"order": by_order(3, 3)}, pixels=PIXELS)["order"]
+    assert (found.base, found.moving) == (1.0, 1.0)
+    assert found.composite is not None
+    assert found.composite < 1.0

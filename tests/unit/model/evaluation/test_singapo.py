@@ -10,6 +10,7 @@ from model.evaluation.matching import by_nearness, by_order
 from model.evaluation.reshape import placed, stretched, taken
 from model.evaluation.singapo import (
     STATES,
+    compared_as_published,
     honest,
     overlap_ratio,
     overlap_ratio_published,
@@ -188,3 +189,12 @@ def test_overlap_ratio_of_two_drawers_that_cross() -> None:
         1.0 / 3.0, abs=6.0 * 0.5 / math.sqrt(2e5)
     )
     assert overlap_ratio(cabinet()) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_what_has_no_thickness_is_not_stretched_to_one() -> None:
+    """A height of 1e-13 is a rounding: by its factor, the pivot of the door would fly away."""
+    truth = cabinet()
+    flat = cabinet(boxes=truth.boxes * (1.0, 1.0, 1e-13), origins=np.full((3, 3), 0.25))
+    mine, _ = compared_as_published(flat, truth)
+    assert np.abs(mine.origins).max() < 1.0
+    assert np.ptp(mine.boxes[..., 2]) < 1e-12
