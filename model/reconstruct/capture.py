@@ -48,6 +48,17 @@ class Capture:
             states=self.states,
         )
 
+    def in_states(self, places: Sequence[int]) -> "Capture":
+        """Some states, by their places."""
+        chosen = list(places)
+        return Capture(
+            files=tuple(self.files[k] for k in chosen),
+            rgba=self.rgba[chosen],
+            intrinsics=self.intrinsics[chosen],
+            camera_from_world=self.camera_from_world[chosen],
+            states=tuple(self.states[k] for k in chosen),
+        )
+
 
 def read_capture(
     images: Path, rig: Rig, *, masks: Path | None = None, segmenter: Segmenter | None = None

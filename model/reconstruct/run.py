@@ -223,7 +223,7 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     return Made(
         capture=capture,
         finding=finding,
-        told=(*choice.told, *told_of(finding, capture)),
+        told=(*choice.told, *told_of(finding, asked)),
         config=config,
         assembled=assembled,
     )

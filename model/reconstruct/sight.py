@@ -15,6 +15,8 @@ from model.reconstruct.hull import VisualHull
 
 SWEEP = 1.1
 """The sphere of training holds all ends of all joints, the one of the images what they show."""
+TIPS = 0.02
+"""Share of a hull's points at either end of each axis that its middle is taken without."""
 BACKGROUNDS = {"white": 1.0, "gray": 0.5, "black": 0.0, "random": 1.0}
 """sRGB behind the foreground, by the word in the network's settings."""
 
@@ -27,13 +29,19 @@ class Sphere:
         center: (3,) in the unit of the camera file.
         radius: in that unit.
         meters: one unit in m.
-        stated: whether the camera file says so; else the visual hull does.
+        center_stated, radius_stated: whether the camera file says so; else the visual hull does.
     """
 
     center: Floats
     radius: float
     meters: float
-    stated: bool
+    center_stated: bool
+    radius_stated: bool
+
+    @property
+    def stated(self) -> bool:
+        """Whether the camera file says all of it."""
+        return self.center_stated and self.radius_stated
 
     @property
     def radius_m(self) -> float:
@@ -44,18 +52,27 @@ class Sphere:
 def sphere_of(rig: Rig, hull: VisualHull) -> Sphere:
     """The sphere that the camera file states, or one around the visual hull.
 
-    The middle is that of the state that takes the least room, which is nearest to rest.
+    The middle is that of what the hulls of all states share, which is about what does not move.
     """
-    boxes = [np.stack([points.min(axis=0), points.max(axis=0)]) for points in hull.points]
-    closed = min(boxes, key=lambda box: float(np.prod(box[1] - box[0])))
-    center = closed.mean(axis=0) if rig.center is None else rig.center
+    center = middle_of(hull) if rig.center is None else rig.center
     reach = max(float(np.linalg.norm(points - center, axis=1).max()) for points in hull.points)
     return Sphere(
         center=center,
         radius=SWEEP * (reach + hull.step / 2.0) if rig.radius is None else rig.radius,
         meters=rig.meters,
-        stated=rig.center is not None and rig.radius is not None,
+        center_stated=rig.center is not None,
+        radius_stated=rig.radius is not None,
     )
+
+
+def middle_of(hull: VisualHull) -> Floats:
+    """(3,) middle of the box around the points that the hulls of all states share, without the tips
+    that reach to where no camera looks; of all their points where they share none."""
+    every = np.concatenate(hull.points)
+    places, counts = np.unique(np.round(every / hull.step, 3), axis=0, return_counts=True)
+    shared = places[counts == len(hull.points)] * hull.step
+    ends = np.quantile(shared if len(shared) else every, (TIPS, 1.0 - TIPS), axis=0)
+    return np.asarray(ends.mean(axis=0))
 
 
 def network_images(capture: Capture, sphere: Sphere, *, size: int, background: str) -> Images:

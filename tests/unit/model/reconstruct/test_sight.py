@@ -12,7 +12,13 @@ from tests.unit.model.reconstruct.perfect import RADIUS
 
 def sphere(perfect: Assembled, *, unit: float = 1.0) -> Sphere:
     """The cabinet's, in a file whose unit of length is `unit` m."""
-    return Sphere(center=perfect.shift / unit, radius=RADIUS / unit, meters=unit, stated=True)
+    return Sphere(
+        center=perfect.shift / unit,
+        radius=RADIUS / unit,
+        meters=unit,
+        center_stated=True,
+        radius_stated=True,
+    )
 
 
 def test_the_object_reprojects_onto_its_photographs(perfect: Assembled, capture: Capture) -> None:
