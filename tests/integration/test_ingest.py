@@ -11,6 +11,7 @@ from artgen.export import read_bundle
 from artgen.ingest.cli import partnet
 from artgen.ingest.export_cli import partnet as export_partnet
 from artgen.validate import validate_bundle
+from tests.integration.places import files_of
 from tests.unit.ingest.folders import cabinet, slide
 
 
@@ -41,15 +42,6 @@ def test_folders_become_valid_bundles_and_a_second_run_keeps_them(tmp_path: Path
     assert (tmp_path / "back/pm_45940/mobility_v2.json").exists()
     note = json.loads((tmp_path / "back/pm_45940/artgen.json").read_text())
     assert note["licence"]["id"] == "LicenseRef-PartNet-Mobility"
-
-
-def files_of(folder: Path) -> dict[str, bytes]:
-    """Every file of a folder by its place."""
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file()
-    }
 
 
 @pytest.mark.blender
