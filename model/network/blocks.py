@@ -11,6 +11,10 @@ from torch.utils.checkpoint import checkpoint
 from model.config import Trunk
 from model.network.attention import Attention, Mlp, norm
 
+Changed = tuple[Tensor | None, Tensor | None]
+"""Image and part tokens after a block; None where a stream stays as it is. A block that handed its
+input on would look to FSDP2 as if it made it."""
+
 
 class Reading(nn.Module):
     """One stream reads another, then thinks: attention and network, both residual."""
@@ -24,13 +28,21 @@ class Reading(nn.Module):
         self.mlp = Mlp(trunk.width, trunk.mlp_ratio)
 
     def forward(
-        self, asking_BND: Tensor, seen_BMD: Tensor, seen_valid_BM: Tensor | None = None
+        self, asking_BXD: Tensor, seen_BYD: Tensor, seen_valid_BM: Tensor | None = None
     ) -> Tensor:
-        """The asking tokens after reading."""
-        asking_BND = asking_BND + self.attention(
-            self.norm_asking(asking_BND), self.norm_seen(seen_BMD), seen_valid_BM
+        """The asking tokens after reading, in their own shape.
+
+        Args:
+            asking_BXD, seen_BYD: tokens in one dimension or several.
+            seen_valid_BM: over all seen tokens in a row.
+        """
+        read_BND = self.attention(
+            self.norm_asking(asking_BXD).flatten(1, -2),
+            self.norm_seen(seen_BYD).flatten(1, -2),
+            seen_valid_BM,
         )
-        thought: Tensor = asking_BND + self.mlp(self.norm_mlp(asking_BND))
+        asking_BXD = asking_BXD + read_BND.view_as(asking_BXD)
+        thought: Tensor = asking_BXD + self.mlp(self.norm_mlp(asking_BXD))
         return thought
 
 
@@ -44,16 +56,15 @@ class CrossBlock(nn.Module):
         image_reads = asks != "part_from_image" and image_goes_on
         self.image_reads = Reading(trunk) if image_reads else None
 
-    def forward(
-        self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor
-    ) -> tuple[Tensor, Tensor]:
-        """Both streams; where both read, parts do first."""
-        image, part = image_BFND.flatten(1, 2), part_BPKD.flatten(1, 2)
+    def forward(self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor) -> Changed:
+        """Where both read, parts do first."""
+        image, part = None, None
         if self.part_reads is not None:
-            part = self.part_reads(part, image)
+            part = part_BPKD = self.part_reads(part_BPKD, image_BFND)
         if self.image_reads is not None:
-            image = self.image_reads(image, part, _of_tokens(valid_BP, part_BPKD.shape[2]))
-        return image.view_as(image_BFND), part.view_as(part_BPKD)
+            held_BM = _of_tokens(valid_BP, part_BPKD.shape[2])
+            image = self.image_reads(image_BFND, part_BPKD, held_BM)
+        return image, part
 
 
 class SelfBlock(nn.Module):
@@ -76,18 +87,16 @@ class SelfBlock(nn.Module):
             shared = trunk.shared_mlp
             self.mlp_image = self.mlp_part if shared else Mlp(trunk.width, trunk.mlp_ratio)
 
-    def forward(
-        self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor
-    ) -> tuple[Tensor, Tensor]:
-        """Both streams."""
+    def forward(self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor) -> Changed:
+        """Parts always; images where a later block reads them."""
         reads = self._within if self.within else self._jointly
         image_read, part_read = reads(image_BFND, part_BPKD, valid_BP)
         part_BPKD = part_BPKD + part_read
         part_BPKD = part_BPKD + self.mlp_part(self.norm_mlp_part(part_BPKD))
-        if image_read is not None:
-            image_BFND = image_BFND + image_read
-            image_BFND = image_BFND + self.mlp_image(self.norm_mlp_image(image_BFND))
-        return image_BFND, part_BPKD
+        if image_read is None:
+            return None, part_BPKD
+        image_BFND = image_BFND + image_read
+        return image_BFND + self.mlp_image(self.norm_mlp_image(image_BFND)), part_BPKD
 
     def _jointly(
         self, image_BFND: Tensor, part_BPKD: Tensor, valid_BP: Tensor
@@ -136,13 +145,15 @@ class TrunkBlocks(nn.Module):
 
         The image tokens are those that the last reading part saw.
         """
-        streams = image_BFND, part_BPKD
         for block in self.blocks:
+            streams = image_BFND, part_BPKD, valid_BP
             if self.recompute and self.training:
-                streams = checkpoint(block, *streams, valid_BP, use_reentrant=False)
+                image, part = checkpoint(block, *streams, use_reentrant=False)
             else:
-                streams = block(*streams, valid_BP)
-        return streams
+                image, part = block(*streams)
+            image_BFND = image_BFND if image is None else image
+            part_BPKD = part_BPKD if part is None else part
+        return image_BFND, part_BPKD
 
 
 def _of_tokens(valid_BP: Tensor, count: int) -> Tensor:

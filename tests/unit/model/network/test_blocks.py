@@ -41,14 +41,14 @@ def joint(*, within: bool = False, goes_on: bool = True, shared: bool = False) -
 def test_in_the_papers_direction_images_read_and_parts_stay() -> None:
     image, part = streams()
     read, kept = cross("image_from_part")(image, part, held((3, 4)))
-    assert torch.equal(kept, part)
+    assert kept is None
     assert (read != image).any(dim=-1).all()
 
 
 def test_in_the_other_direction_parts_read_and_images_stay() -> None:
     image, part = streams()
     kept, read = cross("part_from_image")(image, part, held((3, 4)))
-    assert torch.equal(kept, image)
+    assert kept is None
     assert (read != part).any(dim=-1).all()
 
 
@@ -68,8 +68,10 @@ def test_order_of_slots_does_not_change_the_images(direction: Direction) -> None
     image, part = streams()
     block, valid, order = cross(direction), held((3, 4)), [2, 0, 3, 1]
     ours, theirs = block(image, part, valid), block(image, part[:, order], valid[:, order])
-    torch.testing.assert_close(ours[0], theirs[0], rtol=0, atol=NEAR)
-    torch.testing.assert_close(ours[1][:, order], theirs[1], rtol=0, atol=NEAR)
+    if ours[0] is not None:
+        torch.testing.assert_close(ours[0], theirs[0], rtol=0, atol=NEAR)
+    if ours[1] is not None:
+        torch.testing.assert_close(ours[1][:, order], theirs[1], rtol=0, atol=NEAR)
 
 
 def influence(block: SelfBlock | TrunkBlocks, valid: Tensor) -> tuple[bool, bool, bool, bool]:
@@ -107,7 +109,7 @@ def test_images_that_no_part_reads_any_more_cost_nothing_and_change_nothing(with
     weights = {name: w for name, w in full_block.state_dict().items() if name in names}
     lean.load_state_dict(weights)
     kept, read = lean(image, part, held((3, 4)))
-    assert torch.equal(kept, image)
+    assert kept is None
     expected = full_block(image, part, held((3, 4)))[1]
     torch.testing.assert_close(read, expected, rtol=0, atol=NEAR)
 
