@@ -29,8 +29,8 @@ class JointErrors:
         line: distance of the two infinite axis lines, radii; revolute alone.
         pivot: distance from the predicted line to the point of the true axis nearest to the part,
             radii; revolute alone. Lines that nearly meet far away do not pass for near ones here.
-        lever: how far apart both joints take the middle of the true part, each to the middle of its
-            own range, radii.
+        lever: how far apart both joints take the middle of the true part, each half way to its own
+            far end, radii.
         state_deg: mean error of observed angles after flips are undone.
         state_radii: the same of slides.
         state_share: mean error of observed states over the true range.

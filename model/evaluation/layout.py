@@ -66,7 +66,7 @@ class Layout:
         put(self, "endless", self._checked("endless", endless, (count,)))
         if self.states is not None:
             states = np.asarray(self.states, float)
-            put(self, "states", self._checked("states", states, (len(states), count)))
+            put(self, "states", self._checked("states", states, (max(len(states), 1), count)))
         if self.meshes and len(self.meshes) != count:
             raise ModelError(f"{self.name}: {len(self.meshes)} meshes for {count} parts")
         self._check_values()

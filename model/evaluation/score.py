@@ -122,9 +122,9 @@ def score(
         "parts.count_error": [float(abs(len(predicted) - len(true)))],
     }
     put(found, "paris", asdict(paris(predicted, true, nearest(predicted, true))))
+    put(found, "singapo.published", _published(*in_radii(predicted, true), protocol))
     predicted, true = in_radii(aligned(predicted, true, protocol.align), true)
     matchings = {"order": by_order(len(predicted), len(true)), "nearest": nearest(predicted, true)}
-    put(found, "singapo.published", _published(predicted, true, protocol))
     found |= matched_values(predicted, true, matchings, mask_pixels=protocol.mask_pixels)
     found["singapo.honest.aor"] = [overlap_ratio(predicted)]
     found["singapo.honest.aor_true"] = [overlap_ratio(true)]

@@ -116,6 +116,7 @@ def test_another_rest_is_the_same_object(parents: tuple[int, ...]) -> None:
         ({"parents": np.array([0, 0, 0])}, "expected -1"),
         ({"boxes": np.zeros((2, 2, 3))}, "shape"),
         ({"boxes": np.full((3, 2, 3), np.nan)}, "not finite"),
+        ({"states": np.zeros((0, 3))}, "states has shape"),
     ],
 )
 def test_what_cannot_be_is_refused(changes: dict[str, object], said: str) -> None:

@@ -60,6 +60,22 @@ def test_alignment_brings_place_and_scale() -> None:
     assert aligned(wrong, truth, "none") is wrong
 
 
+def test_singapo_as_published_aligns_in_its_own_way() -> None:
+    """Its stretch leaves ranges as they are, so a scale that was brought before would change them:
+    a drawer of 0.5 of an object thrice as large."""
+    truth = cabinet()
+    large = placed(truth, scale=3.0)
+    guess = replace(large, limits=truth.limits)
+    by_align = [
+        score(guess, truth, replace(QUICK, align=align, mask_pixels=0)).metrics
+        for align in ("none", "center", "uniform")
+    ]
+    for name in ("rs_dgiou", "as_dgiou", "rs_dcdist", "as_dcdist"):
+        key = f"singapo.published.{name}"
+        assert by_align[0][key] == by_align[1][key] == by_align[2][key], name
+    assert by_align[0]["singapo.honest.order.as_dcdist"][0] > 0.1
+
+
 def test_radii_are_half_diagonals() -> None:
     _, true = in_radii(cabinet(), cabinet())
     assert true.radius == pytest.approx(1.0, abs=1e-15)
