@@ -10,6 +10,7 @@ from artgen.articulation.kinematics import resolved
 from artgen.articulation.targets import targets
 from artgen.core.camera import Camera
 from artgen.dataset.sample import Bytes, Cameras, PartLabel, Sample, SampleMeta
+from artgen.dataset.split import families_of
 from artgen.export import Bundle
 from artgen.imaging import Singles, display
 from renders.accuracy import quality
@@ -147,7 +148,7 @@ def _meta(bundle: Bundle, plan: RenderPlan, shading: str, effects: Effects) -> S
         light=plan.job.rig.name,
         effects=effects,
         rendering=_rendering(plan),
-        donors=tuple(bundle.manifest.get("donors", ())),  # Only assembled bundles have some.
+        donors=families_of(bundle.manifest),
     )
 
 

@@ -1,10 +1,12 @@
 """A library built from generators and bundles: processes side by side, resumable, cached."""
 
+import json
 import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from artgen import __version__
 from artgen.assembly.harvest import (
     EMBEDDED,
     Made,
@@ -17,7 +19,7 @@ from artgen.assembly.library import seal_library
 from artgen.assembly.source import Source
 from artgen.assembly.store import write_source
 from artgen.core.errors import ArtgenError, UsageError
-from artgen.core.jsonio import content_hash, file_hash, plain
+from artgen.core.jsonio import content_hash, file_hash, plain, write_json
 from artgen.core.mesh import Floats, Ints
 from artgen.export.layout import MANIFEST
 from artgen.finish import RawBody
@@ -79,8 +81,9 @@ def build_library(
         sharp: leave edges sharp, without Blender.
 
     Raises:
-        UsageError: no source could be taken in.
+        UsageError: no source could be taken in, or those in the folder were made otherwise.
     """
+    claim(folder, sharp=sharp)
     tasks = [SourceTask(folder=folder, id=one.asset_id, made=one, sharp=sharp) for one in made]
     found, taken = _bundle_tasks(folder, bundles)
     tasks += found
@@ -101,6 +104,29 @@ def build_library(
     }
     digest = seal_library(folder, ids, recipe=recipe)
     return digest, [outcome for outcome in taken if outcome.fault]
+
+
+def claim(folder: Path, *, sharp: bool) -> None:
+    """Say in build.json how the sources of a folder are made, before the first of them is.
+
+    Raises:
+        UsageError: there are some that were made otherwise, or nobody knows how.
+    """
+    path = folder / "build.json"
+    wanted = {"edition": EDITION, "sharp": sharp, "artgen": __version__}
+    if not any((folder / "sources").glob("*.json")):
+        write_json(path, wanted)
+        return
+    try:
+        stated = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        stated = {}
+    if stated != wanted:
+        how = f"with {json.dumps(stated)}" if stated else "with settings that it does not state"
+        raise UsageError(
+            f"{folder}: its sources were made {how}, not with {json.dumps(wanted)}; choose a new "
+            "--out (nothing is overwritten), or remove the folder"
+        )
 
 
 def _bundle_tasks(folder: Path, bundles: Sequence[Path]) -> tuple[list[SourceTask], list[Taken]]:

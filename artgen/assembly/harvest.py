@@ -14,6 +14,7 @@ from artgen.assembly.source import Source, source_of_draft, source_of_object
 from artgen.core.errors import ExportError, UsageError
 from artgen.core.jsonio import file_hash
 from artgen.core.stream import Stream
+from artgen.dataset.split import OURS, families_of
 from artgen.export import read_bundle
 from artgen.export.layout import MANIFEST
 from artgen.finish import Rounder
@@ -36,8 +37,6 @@ LONGEST = 80
 """Characters of a bundle's own name in the id of its source."""
 DIGITS = 12
 """Hex digits of its hash there."""
-OURS = "artgen"
-"""The data set of bundles that name no source."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,15 +84,18 @@ def bundle_source(folder: Path) -> Source:
 
     Raises:
         ExportError: it is damaged.
+        UsageError: it is itself made of others' parts, which are of several families.
     """
     obj = finished_object(folder)
-    dataset, own = _origin(obj.provenance)
+    if obj.provenance.get("donors"):
+        raise UsageError(f"{folder}: is made of others' parts; take those objects in instead")
+    families = families_of(obj.provenance)
     return source_of_object(
         obj,
         id=bundle_id(folder),
         licence=licence_of(obj.provenance),
-        dataset=dataset,
-        family=obj.asset_id if dataset == OURS else f"{dataset}:{own}",
+        dataset=_origin(obj.provenance)[0],
+        family=families[0] if families else obj.asset_id,
     )
 
 

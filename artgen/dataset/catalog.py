@@ -18,7 +18,7 @@ from artgen.core.jsonio import replace_atomically
 from artgen.dataset.listing import Listed, listed_assets
 from artgen.dataset.packing import Packing
 from artgen.dataset.reader import open_shard
-from artgen.dataset.split import split_of
+from artgen.dataset.split import families_of, split_of
 
 BUNDLE_SCHEMA = "artgen-bundle/2"
 
@@ -165,10 +165,10 @@ def _bundle_columns(asset: Listed) -> dict[str, Any]:
     joints = [_joint_columns(joint) for joint in facts["joints"]]
     slides = [joint["upper"] for joint in joints if joint["type"] == "prismatic"]
     openings = [joint["upper_deg"] for joint in joints if joint["upper_deg"] is not None]
-    donors = facts.get("donors", [])
+    donors = families_of(facts)
     return {
         "split": split_of(asset.asset_id, donors),
-        "donors": donors,
+        "donors": list(donors),
         "seed": facts.get("seed"),
         "index": facts.get("index"),
         "mass": facts["mass"],

@@ -80,7 +80,8 @@ class SampleMeta:
         effects: post-render effects by name; empty when none was asked for.
         rendering: settings, backend, accuracy with its promise, transport; as JSON has it.
         donors: ids of the assets whose parts a recombined asset borrows, down to those that borrow
-            nothing themselves; empty for an asset of its own. They decide the split.
+            nothing themselves, or the family of the foreign object that it was made from; empty for
+            an asset of its own. They decide the split.
         slots: the P that `to_slots` cut or padded to; None while P is the number of parts.
         parts_left_out: names of parts of the asset that the arrays do not hold.
     """

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from artgen.core.mesh import Floats, Ints, TriMesh
 from artgen.core.surface import linear_from_srgb
+from artgen.dataset.split import families_of
 from artgen.export.bundle import Bundle, read_bundle
 from artgen.export.layout import atlas_path
 from artgen.textures.png import read_png
@@ -95,14 +96,13 @@ def _joined(bundle: Bundle, pieces: list[_Piece]) -> Soup:
     compact = [_used(piece) for piece in pieces]
     starts = np.cumsum([0] + [len(vertices) for vertices, _ in compact])
     counts = [len(faces) for _, faces in compact]
-    donors = bundle.manifest.get("donors") or ()
     return Soup(
         asset_id=bundle.asset_id,
         category=bundle.category,
         parts=tuple(part.name for part in bundle.parts),
         joints=bundle.joints,
         preconditions=bundle.preconditions,
-        donors=tuple(str(donor) for donor in donors),
+        donors=families_of(bundle.manifest),
         bounds=np.stack([part.bounds for part in bundle.parts]),
         center=bundle.center,
         radius=bundle.radius,

@@ -9,8 +9,9 @@ import pyarrow.parquet as pq
 import pytest
 
 from artgen.core.errors import ShardError
-from artgen.dataset.catalog import ASSETS, SAMPLES, write_catalog
+from artgen.dataset.catalog import ASSETS, SAMPLES, asset_rows, write_catalog
 from artgen.dataset.folder import shard_folder
+from artgen.dataset.packing import Packing
 from artgen.dataset.reader import ShardDataset, open_shard
 from artgen.dataset.split import split_of
 from tests.unit.dataset.runs import OPENING_DEG, WIDE, made_run
@@ -21,6 +22,19 @@ def run(tmp_path_factory):
     """A run folder with shards and catalog."""
     out = made_run(tmp_path_factory.mktemp("run"))
     return shard_folder(out, per_shard=2), out
+
+
+def test_an_ingested_asset_has_the_split_of_its_family(tmp_path):
+    """That of its own id was another for a third of PartNet-Mobility's ids than a library gave."""
+    out = made_run(tmp_path)
+    path = out / "assets" / "laptop" / "000002" / "manifest.json"
+    other = next(f"x:{k}" for k in range(99) if split_of(f"x:{k}") != split_of("laptop_000002"))
+    source = {"dataset": "x", "id": "0", "family": other}
+    path.write_text(json.dumps({**json.loads(path.read_text()), "source": source}))
+    packing = Packing(per_shard=1, shards=(), left_out={})
+    row = next(row for row in asset_rows(out, packing) if row["asset_id"] == "laptop_000002")
+    assert row["split"] == split_of(other)
+    assert row["donors"] == [other]
 
 
 def test_duckdb_finds_the_laptops_that_open_past_120_degrees(run, monkeypatch):

@@ -2,10 +2,11 @@
 
 from collections import Counter
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from artgen.dataset.split import split_of
+from artgen.dataset.split import families_of, split_of
 
 
 def test_the_split_of_an_asset_is_frozen():
@@ -43,3 +44,19 @@ def test_no_part_is_seen_in_two_splits(assets):
         for owner in donors or {asset_id}:
             if split is not None:
                 assert seen.setdefault(owner, split) == split
+
+
+@pytest.mark.parametrize(
+    ("manifest", "families"),
+    [
+        ({}, ()),
+        ({"source": "reconstruction"}, ()),
+        ({"source": {"dataset": "artgen", "id": "cabinet_000001"}}, ()),
+        ({"source": {"dataset": "urdf", "id": "arm"}}, ("urdf:arm",)),
+        ({"source": {"dataset": "urdf", "id": "arm", "family": "cabinet_3"}}, ("cabinet_3",)),
+        ({"source": {"dataset": "a+urdf", "id": "arm"}, "donors": ["x", "y"]}, ("x", "y")),
+        ({"donors": []}, ()),
+    ],
+)
+def test_families_are_donors_or_that_of_the_foreign_source(manifest, families):
+    assert families_of(manifest) == families

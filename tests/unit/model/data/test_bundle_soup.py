@@ -75,6 +75,14 @@ def test_donors_are_kept(tmp_path):
     assert bundle_soup(folder).donors == ("a_1", "b_2")
 
 
+def test_the_family_of_a_foreign_object_decides_its_split(tmp_path):
+    folder = written_bundle(drawer_unit(), tmp_path, _plain((9, 9, 9)))
+    path = folder / layout.MANIFEST
+    source = {"dataset": "urdf", "id": "a", "family": "urdf:a"}
+    path.write_text(json.dumps({**json.loads(path.read_text()), "source": source}))
+    assert bundle_soup(folder).donors == ("urdf:a",)
+
+
 def test_a_folder_that_is_no_bundle_is_refused(tmp_path):
     with pytest.raises(ExportError, match=r"manifest\.json"):
         bundle_soup(tmp_path)
