@@ -187,6 +187,7 @@ def _card(source: Source[Any], config: Config, material: Material, run: Run) -> 
             "made": stated_origin(material, config.data.seed),
             "library": material.library and material.library.name,
             "shards": [path.name for path in material.shards],
+            "shard_share": material.shard_share,
             "split": material.split,
             "scenes": material.scenes,
             "items": len(source),

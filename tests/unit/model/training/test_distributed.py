@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 import torch
+import torch._dynamo  # Sharding asks for it: once here, not in every forked rank.
 
 import model.training.objective
 import model.training.session
