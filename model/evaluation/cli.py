@@ -1,6 +1,7 @@
 """`artgen evaluate`: predictions of any system against the truth, as one JSON and one page."""
 
 import json
+import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -175,12 +176,7 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
             f"{command.predictions} is no folder, no network file and no baseline"
             f"{did_you_mean(command.predictions, BASELINES)}; baselines are {', '.join(BASELINES)}"
         )
-    counts = (command.count, command.train_count, command.views, command.fit_steps)
-    if min(counts) < 1 or min(command.resolution, command.samples) < 0:
-        raise UsageError(
-            f"--count, --train-count, --views and --fit-steps are {counts}, each at least 1; "
-            "--resolution and --samples are at least 0"
-        )
+    _check_numbers(command)
     asked = {
         "predictions": command.predictions,
         "truth": command.truth,
@@ -208,6 +204,23 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
         records = module.run(run, protocol, command.out / "objects")
         told = f"Held-out objects: split {command.split}, at most {command.count}."
         return written(command, protocol, records, [told])
+
+
+def _check_numbers(command: Evaluate) -> None:
+    """Raise UsageError for options of networks and baselines that are out of their bounds."""
+    counts = (command.count, command.train_count, command.views, command.fit_steps)
+    if min(counts) < 1 or min(command.resolution, command.samples) < 0:
+        raise UsageError(
+            f"--count, --train-count, --views and --fit-steps are {counts}, each at least 1; "
+            "--resolution and --samples are at least 0"
+        )
+    noise = (command.pose_noise_deg, command.pose_noise)
+    if not all(0.0 <= own < math.inf for own in noise):
+        raise UsageError(
+            f"--pose-noise-deg and --pose-noise are {noise}; expected finite numbers of at least 0"
+        )
+    if not 0.0 <= command.azimuth_deg <= 180.0:
+        raise UsageError(f"--azimuth-deg is {command.azimuth_deg:g}; expected 0 to 180")
 
 
 def written(

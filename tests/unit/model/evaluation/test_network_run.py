@@ -95,6 +95,21 @@ def test_a_baseline_without_training_objects_is_told(place: Path) -> None:
         run(place, "pixel", "none")
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--pose-noise", "nan"),
+        ("--pose-noise-deg", "inf"),
+        ("--azimuth-deg", "-1"),
+        ("--azimuth-deg", "nan"),
+    ],
+)
+def test_numbers_that_are_none_are_told(place: Path, options: tuple[str, str]) -> None:
+    with pytest.raises(UsageError, match="expected (finite|0 to 180)"):
+        run(place, "mean", "wrong", *options)
+    assert not (place / "wrong").exists()
+
+
 def test_a_prediction_that_fails_is_asked_what_the_others_are(tmp_path: Path) -> None:
     """Neither gates nor images of a baseline; masks where they have pixels."""
     config = dataclasses.replace(CONFIG, rest="closed")
