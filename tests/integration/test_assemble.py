@@ -12,7 +12,7 @@ from artgen.assembly.harvest import embedded, made_source
 from artgen.assembly.library import write_library
 from tests.integration.places import files_of
 
-COUNTS = {"storage_furniture": 3, "cabinet": 3}
+COUNTS = {"storage_furniture": 2, "cabinet": 2}
 
 
 @pytest.fixture
@@ -25,6 +25,7 @@ def library(tmp_path: Path) -> Path:
 
 
 @pytest.mark.blender
+@pytest.mark.slow
 def test_any_number_of_workers_and_a_resumed_run_make_the_same_bytes(
     library: Path, tmp_path: Path
 ) -> None:

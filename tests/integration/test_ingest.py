@@ -45,6 +45,7 @@ def test_folders_become_valid_bundles_and_a_second_run_keeps_them(tmp_path: Path
 
 
 @pytest.mark.blender
+@pytest.mark.slow
 def test_any_number_of_workers_and_a_resumed_run_make_the_same_bytes(tmp_path: Path) -> None:
     """Two objects by one process after the other, and side by side; then one is deleted and made
     anew, while the other is left as it is."""
