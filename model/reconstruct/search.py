@@ -3,6 +3,7 @@ it says, agree best with the silhouettes of all images.
 """
 
 import dataclasses
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -32,6 +33,8 @@ COHERENCE = 0.1
 seven held-out objects, agreement alone chose such that parts agree with the truth to a mean
 generalized IoU of 0.02, with a tenth of likeness to 0.14 (likeness alone 0.09, the first 0.08
 below zero, the true sphere 0.37)."""
+FOREGROUND = 0.995
+"""Share of the foreground that must see a sphere; a mask may have crumbs."""
 TINY = 1e-12
 """Below the volume of any box, radii^3."""
 MOST_LEADS = 4
@@ -114,8 +117,19 @@ def searched(asked: Question, choice: Choice) -> Finding:
         few = in_states(
             asked, state_groups(len(asked.capture.states), asked.config.data.states)[-1]
         )
-        sphere = fitted(sphere, lambda tried: merit(few, tried, sets[:COMPARED]))
+        sphere = fitted(
+            sphere,
+            lambda tried: merit(few, tried, sets[:COMPARED]) if holds(asked, tried) else -math.inf,
+        )
     return best([found(asked, sphere, views) for views in sets])
+
+
+def holds(asked: Question, sphere: Sphere) -> bool:
+    """Whether a sphere can hold the object: rays that see foreground pass through it."""
+    seen = seen_from(asked, sphere)
+    ways = seen.ways / np.linalg.norm(seen.ways, axis=-1, keepdims=True)
+    far = np.linalg.norm(np.cross(ways, seen.origins[:, :, None]), axis=-1)[seen.mask]
+    return bool(np.quantile(far, FOREGROUND) <= sphere.radius_m)
 
 
 def merit(asked: Question, sphere: Sphere, sets: Sequence[tuple[int, ...]]) -> float:

@@ -41,7 +41,7 @@ class Row:
     Attributes:
         size: radius as a multiple of the stated one.
         off: of the middle, in stated radii.
-        raw: mean IoU of predicted boxes and silhouettes; `fitted` after boxes were fitted.
+        raw: mean IoU of predicted boxes and silhouettes; `mended` after they were fitted.
         types: of the joints.
         seconds: CPU, of asking the network.
     """
@@ -51,7 +51,7 @@ class Row:
     size: float
     off: float
     raw: float
-    fitted: float
+    mended: float
     types: str
     seconds: float
 
@@ -92,13 +92,13 @@ def row(example: str, name: str, finding: Finding, stated: Sphere, seconds: floa
         size=sphere.radius / stated.radius,
         off=float(np.linalg.norm(sphere.center - stated.center)) / stated.radius,
         raw=finding.agreement,
-        fitted=agreement(refined(guess, finding.seen), finding.seen),
+        mended=agreement(refined(guess, finding.seen), finding.seen),
         types=" ".join(WORDS[kind] for kind in kinds[1:]),
         seconds=seconds,
     )
 
 
-HEAD = "| example | sphere | radius / stated | middle off, radii | boxes | fitted | joints | s |"
+HEAD = "| example | sphere | radius / stated | middle off, radii | boxes | mended | joints | s |"
 
 
 def table(found_rows: Sequence[Row]) -> str:
@@ -106,7 +106,7 @@ def table(found_rows: Sequence[Row]) -> str:
     lines = [HEAD, "|---|---|---|---|---|---|---|---|"]
     lines += [
         f"| {own.example} | {own.sphere} | {own.size:.2f} | {own.off:.3f} | {own.raw:.3f} "
-        f"| {own.fitted:.3f} | {own.types} | {own.seconds:.1f} |"
+        f"| {own.mended:.3f} | {own.types} | {own.seconds:.1f} |"
         for own in found_rows
     ]
     return "\n".join(lines)

@@ -23,6 +23,7 @@ from model.reconstruct.search import (
     Question,
     box_likeness,
     found,
+    holds,
     in_states,
     merit,
     question,
@@ -31,10 +32,11 @@ from model.reconstruct.search import (
 )
 from model.reconstruct.sight import Sphere, sphere_of
 from model.training.recipes import RECIPES, articulation_only
-from tests.unit.model.reconstruct.perfect import RADIUS, cabinet
+from tests.unit.model.reconstruct.perfect import cabinet
 from tests.unit.model.reconstruct.studio import STATES
-from tests.unit.model.reconstruct.test_sight import sphere
 
+RADIUS = 1.0
+"""m; the open door's tip is 0.94 m from the middle of the cabinet's sphere."""
 KINDS = {"revolute": REVOLUTE, "prismatic": PRISMATIC}
 
 
@@ -58,6 +60,13 @@ def truth() -> Articulation:
         motion_BTP=torch.tensor([motion]),
         limits_BP2=torch.zeros(1, 3, 2),
         parent_BP=torch.tensor([[-1, 0, 0]]),
+    )
+
+
+def sphere(perfect: Assembled) -> Sphere:
+    """That of `truth`."""
+    return Sphere(
+        center=perfect.shift, radius=RADIUS, meters=1.0, center_stated=True, radius_stated=True
     )
 
 
@@ -134,16 +143,17 @@ def test_what_is_stated_stays(config: Config, capture: Capture, perfect: Assembl
 def test_a_sphere_that_is_not_stated_is_found(
     config: Config, capture: Capture, perfect: Assembled
 ) -> None:
-    """The hull's radius is half as large again as the true one. A step of 0.16 radii is halved
-    where it leads nowhere better, and half of that is what a number may be off; most of what can be
-    gained is gained by then."""
-    true, about = sphere(perfect), hull_sphere(capture)
+    """From one that is wide of it. A step of 0.16 radii is halved where it leads nowhere better,
+    and half of that is what a number may be off; half of what can be gained is gained by then."""
+    true, hull = sphere(perfect), hull_sphere(capture)
+    wide = hull.center + np.array([0.0, 0.15, -0.1])
+    about = dataclasses.replace(hull, center=wide, radius=1.15 * RADIUS)
     there = asked(config, capture, about)
     choice = chosen_views(capture, about, config.data)
     finding = searched(there, choice)
     before = found(there, about, choice.views).agreement
     best = found(there, true, choice.views).agreement
-    assert finding.agreement - before >= 0.75 * (best - before) > 0.2
+    assert finding.agreement - before >= 0.5 * (best - before) > 0.1
     assert float(np.linalg.norm(finding.sphere.center - true.center)) <= 0.08 * RADIUS
     assert abs(finding.sphere.radius / RADIUS - 1.0) <= 0.08
     (told,) = told_of(finding, there)
@@ -166,6 +176,19 @@ def test_a_question_about_some_states_is_that_of_a_smaller_capture(
     assert torch.equal(swapped.images.rgb_BTV3HW, directly.images.rgb_BTV3HW)
     for name in ("mask", "origins", "ways"):
         assert np.array_equal(getattr(swapped.seen, name), getattr(directly.seen, name))
+
+
+def test_a_sphere_that_cuts_the_silhouettes_cannot_hold_the_object(
+    config: Config, capture: Capture, perfect: Assembled
+) -> None:
+    """The open door's tip is 0.94 m from the middle. A network that is sure of itself can agree
+    with silhouettes from a sphere that is too small."""
+    true = sphere(perfect)
+    there = asked(config, capture, true)
+    assert holds(there, true)
+    assert holds(there, hull_sphere(capture))
+    assert not holds(there, dataclasses.replace(true, radius=0.6))
+    assert not holds(there, dataclasses.replace(true, center=true.center + 0.5))
 
 
 def test_equal_boxes_are_alike_and_distant_ones_are_not() -> None:
