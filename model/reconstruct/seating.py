@@ -1,5 +1,5 @@
-"""Joints seated in the parts they move: an axis runs through what it turns, and a slide goes no
-further than its part is long.
+"""Joints seated in the parts they move: an axis runs through what it turns, and a slide goes less
+far than its part is long.
 """
 
 import dataclasses
@@ -14,6 +14,9 @@ POINTS = 129
 """Points of an axis at which its distance from a box is taken."""
 NEAR = 0.02
 """Share of a part's diagonal by which its axis may pass outside: barrels of hinges stand out."""
+HELD = 1e-3
+"""Share of its part's length that a slide keeps on its rails: more than rounding of vertices takes.
+"""
 
 
 def seated(scene: Scene) -> Scene:
@@ -49,15 +52,15 @@ def way_to_box(origin: Floats, axis: Floats, bounds: Floats) -> Floats:
 
 
 def _on_rails(scene: Scene, joint: Joint, bounds: Floats) -> Scene:
-    """The scene with a slide's way as long as its part, if it was longer."""
-    length = float(np.abs(joint.axis) @ (bounds[1] - bounds[0]))
+    """The scene with a slide's way a little shorter than its part, if it was longer."""
+    most = (1.0 - HELD) * float(np.abs(joint.axis) @ (bounds[1] - bounds[0]))
     limit = joint.limit
-    if limit is None or limit.upper - limit.lower <= length:
+    if limit is None or limit.upper - limit.lower <= most * (1.0 + 1e-9):
         return scene
-    share = length / (limit.upper - limit.lower)
+    share = most / (limit.upper - limit.lower)
     ends = Limit(lower=share * limit.lower + 0.0, upper=share * limit.upper)
     told = (
-        f"{joint.name}'s way of {limit.upper:.3g} m was cut to {ends.upper:.3g}, as long as "
-        f"{joint.child} is"
+        f"{joint.name}'s way of {limit.upper:.3g} m was cut to {ends.upper:.3g}, {HELD:.1%} "
+        f"shorter than {joint.child} is"
     )
     return scene.with_joint(dataclasses.replace(joint, limit=ends)).told(told)
