@@ -33,19 +33,18 @@ from artgen.core.surface import SurfaceSpec
 from artgen.finish import finish
 from artgen.geometry.solid import Solid
 from artgen.textures.images import Image, TextureSet
-from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways, made_sound
+from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways
 from model.reconstruct.contact import contact_pieces
 from model.reconstruct.guess import ColorAt, ObjectGuess, PartGuess, Told
 from model.reconstruct.joints import CleanJoint, clean_joint, parents_first
 from model.reconstruct.physics import DENSITY, LEAST, forces, weights
-from model.reconstruct.proof import proven
 from model.reconstruct.rescue import unblocked
 from model.reconstruct.scene import Scene
 from model.reconstruct.seating import seated
 from model.reconstruct.sense import sensible
 from model.reconstruct.shapes import shape_of
 from model.reconstruct.skin import PaintOver, colored, moved_color, nearest_part
-from model.reconstruct.substance import substantial
+from model.reconstruct.substance import settled
 
 CATEGORY = "reconstructed"
 CLEARANCE = 1e-3
@@ -139,7 +138,7 @@ def assemble(
     )
     cutter = Cutter(wishes.clearance)
     scene = unblocked(seated(apart_at_rest(scene, cutter)))
-    scene = substantial(proven(seated(made_sound(clear_ways(scene, cutter)))))
+    scene = settled(clear_ways(scene, cutter))
     order = _in_order(scene)
     scene = scene.renamed(order)
     names = {slot: order.get(name, name) for slot, name in names.items()}

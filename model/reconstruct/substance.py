@@ -1,18 +1,30 @@
-"""Parts of which next to nothing is left become pieces of what carries them.
+"""What is left at the end is sound: no part is a shred, no triangle is flat, nothing meets.
 
 What cutting leaves of a torn surface may be a shred: too light for a simulator beside a carcass, or
 so thin that no contact box fits inside; its hull would stick out and jam its neighbors.
 """
 
 from artgen.geometry.solid import Solid
+from model.reconstruct.apart import made_sound
 from model.reconstruct.contact import boxes_inside
 from model.reconstruct.proof import proven
 from model.reconstruct.scene import Scene
+from model.reconstruct.seating import seated
 
 LIGHT = 2e-6
 """Share of the largest part's volume; validators refuse a mass a million times another's."""
 THIN = 0.05
 """Share of its hull that a part fills to be looked at as a shred."""
+
+
+def settled(scene: Scene) -> Scene:
+    """The scene in which triangles have areas, joints are seated, nothing meets and nothing is a
+    shred; looked at anew where a part became a piece of another."""
+    joints = -1
+    while joints != len(scene.joints):  # Solids change no more where no joint goes.
+        joints = len(scene.joints)
+        scene = substantial(proven(seated(made_sound(scene))))
+    return scene
 
 
 def substantial(scene: Scene) -> Scene:
