@@ -36,7 +36,7 @@ class Train:
 
     artgen train multiview --library lib.npz --shards renders/shards --shard-share 0.2
 
-    torchrun --nproc-per-node 8 --no-python artgen train multiview --size s --library lib.npz
+    torchrun --nproc-per-node 8 --no-python -- artgen train multiview --size s --library lib.npz
     """
 
     recipe: Annotated[Recipe, tyro.conf.arg(metavar="RECIPE"), tyro.conf.Positional] = "debug"
