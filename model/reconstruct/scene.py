@@ -136,7 +136,7 @@ class Scene:
 
     def ended(self, sweep: Sweep, met: Sequence[int], what: str) -> "Scene":
         """The same with the swept joint's way ended a step before the poses at which it meets
-        something; told where it cannot move at all."""
+        something, and rules that ask for more of it with it; told where it cannot move at all."""
         joint = self.joint(sweep.joint)
         path = np.array([state[joint.name] for state in sweep.states])
         rest = int(np.argmin(np.abs(path)))
@@ -152,7 +152,15 @@ class Scene:
         limit = Limit(lower=float(lower) + 0.0, upper=float(upper))
         kind = "revolute" if joint.type == "continuous" else joint.type
         scene = self.with_joint(dataclasses.replace(joint, type=kind, limit=limit))
-        return scene.told(f"{joint.name} ends at {upper:.3g}, where it meets {what}")
+        rules = tuple(
+            dataclasses.replace(rule, at_least=min(rule.at_least, limit.upper))
+            if rule.requires == joint.name
+            else rule
+            for rule in self.rules
+        )
+        return dataclasses.replace(scene, rules=rules).told(
+            f"{joint.name} ends at {upper:.3g}, where it meets {what}"
+        )
 
 
 def sweeps_of(scene: Scene, joint: str) -> list[Sweep]:
