@@ -1,4 +1,5 @@
-"""Convex contact pieces that lie inside of a solid: boxes along the axes, or its hull.
+"""Convex contact pieces that lie inside of a solid: boxes along the axes, or its hull where that
+lies inside as well.
 
 A hull around a cabinet closes it, and pieces that stick out of their part jam its neighbors. So
 space is divided by the planes in which the part has large faces, and by even steps between them;
@@ -19,10 +20,13 @@ from artgen.geometry.normals import face_vectors
 from artgen.geometry.solid import Solid, slab
 
 MOST_PIECES = 40
-STEPS = (14, 28, 56)
-"""Cells along the longest side, between the planes of faces; finer where coarse hold little."""
 ENOUGH = 0.5
 """Share of the part's volume that boxes hold to be content with."""
+LITTLE = 0.1
+"""The same of thin parts, such as the frame of a door, for which cells become finer still."""
+STEPS = {14: 1.0, 28: ENOUGH, 56: ENOUGH, 112: LITTLE, 224: LITTLE}
+"""Cells along the longest side, between the planes of faces, and the share of the part's volume
+that coarser ones hold where so fine ones are no longer tried."""
 CANDIDATES = 200
 """Largest triangles whose normals are tried as axes of a frame."""
 ALIKE = 0.97
@@ -39,6 +43,10 @@ SAMPLES = (0.02, 0.5, 0.98)
 """Places across a cell that have to lie inside."""
 LEAST = 0.002
 """Share of the part's volume that a box fills at least."""
+KERNELS = 20
+"""Largest triangles behind which a cube is looked for."""
+SMALLEST = 2e-5
+"""m; half the side of the smallest cube, whose corners stick out by 0.04 mm at most."""
 MOST_HITS = 64
 """Surfaces that a line through a part meets at most."""
 
@@ -46,8 +54,8 @@ Cells = NDArray[np.bool_]
 
 
 def contact_pieces(solid: Solid, *, slanted: int) -> tuple[Solid, ...]:
-    """Convex solids inside of `solid`, largest first; its hull where that lies inside as well, or
-    where no box fits in.
+    """Convex solids inside of `solid`, largest first; its hull where that lies inside as well, and
+    a small cube where no box fits in: a hull around a frame would close it.
 
     Args:
         slanted: boxes at most that are not along the axes; a bundle holds each as a file.
@@ -62,7 +70,7 @@ def contact_pieces(solid: Solid, *, slanted: int) -> tuple[Solid, ...]:
         turned = boxes_inside(solid.transformed(turn))[:slanted]
         if _volume(turned) > _volume(best):
             best = tuple(piece.transformed(turn.T) for piece in turned)
-    return best or (hull,)
+    return best or (kernel(solid),)
 
 
 def _volume(pieces: tuple[Solid, ...]) -> float:
@@ -73,16 +81,33 @@ def boxes_inside(solid: Solid) -> tuple[Solid, ...]:
     """Disjoint boxes along the axes, on the coarsest grid whose boxes hold enough."""
     mesh = solid.trimesh()
     best: tuple[Solid, ...] = ()
-    for steps in STEPS:
+    for steps, content in STEPS.items():
+        if _volume(best) >= content * solid.volume:
+            break
         lines = [grid_lines(mesh, axis, steps) for axis in range(3)]
         least = LEAST * solid.volume
         boxes = cover(cells_inside(mesh, lines), lines, least=least)
         found = tuple(piece for box in boxes for piece in held(box, solid, least=least))
         if _volume(found) > _volume(best):
             best = found
-        if _volume(best) >= ENOUGH * solid.volume:
-            break
     return best
+
+
+def kernel(solid: Solid) -> Solid:
+    """The largest cube behind the middle of a large face that lies inside, by halving."""
+    mesh = solid.trimesh()
+    vectors = face_vectors(mesh)
+    area = np.linalg.norm(vectors, axis=1)
+    half = float(solid.extent.max()) / 8.0
+    large = np.argsort(area, kind="stable")[::-1][:KERNELS]
+    while True:
+        for place in large:
+            inward = -vectors[place] / area[place]
+            middle = mesh.triangles[place].mean(axis=0) + 2.0 * half * inward
+            cube = slab((middle - half).tolist(), (middle + half).tolist())
+            if half <= SMALLEST or (cube - solid).volume <= 1e-6 * cube.volume:
+                return cube
+        half = max(half / 2.0, SMALLEST)
 
 
 def held(box: Solid, solid: Solid, *, least: float) -> Iterator[Solid]:

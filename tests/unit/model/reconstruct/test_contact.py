@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from artgen.geometry.solid import Solid, cylinder, slab, union
-from model.reconstruct.contact import contact_pieces, points_inside
+from model.reconstruct.contact import boxes_inside, contact_pieces, kernel, points_inside
 from tests.unit.model.reconstruct.perfect import open_box
 
 TRAY = open_box(np.zeros(3), np.array([0.5, 0.4, 0.2]), 0.01, open_to=2, side=1)
@@ -33,6 +33,42 @@ def test_a_convex_part_is_stood_for_by_its_hull() -> None:
     bar = cylinder(0.02, 0.3)
     (piece,) = contact_pieces(bar, slanted=10)
     assert abs(piece.volume / bar.volume - 1.0) <= 1e-9
+
+
+def frame(thick: float) -> Solid:
+    """Four rods of three sides around an opening of 0.8 x 2.2 m, slender and slanted inward."""
+    upright = cylinder(thick, 2.2, segments=3)
+    across = cylinder(thick, 0.8, segments=3).turned("y", np.pi / 2.0)
+    return union(
+        [upright.at(x=-0.4), upright.at(x=0.4), across.at(z=-1.1), across.at(z=1.1)]
+    ).turned("z", 0.3)
+
+
+@pytest.mark.parametrize("thick", [0.02, 0.0005], ids=["boxes", "cube"])
+def test_contact_of_a_frame_leaves_its_opening_open(thick: float) -> None:
+    """Its hull would close it. Boxes may stick out by 2 mm3 (edges of 0.1 mm), the smallest cube
+    has 4e-5 m a side; the opening begins 2 rods from the middles."""
+    solid = frame(thick)
+    opening = slab((-0.4 + 2 * thick, -0.5, -1.05), (0.4 - 2 * thick, 0.5, 1.05)).turned("z", 0.3)
+    pieces = contact_pieces(solid, slanted=10)
+    assert pieces
+    for piece in pieces:
+        assert (piece & opening).volume <= 1e-12
+        assert (piece - solid).volume <= 2e-9
+    assert (solid.hull() & opening).volume > 1e-3
+
+
+def test_a_kernel_lies_inside() -> None:
+    for solid in (TRAY, TURNED, frame(0.02), frame(0.0005)):
+        cube = kernel(solid)
+        assert cube.volume > 0.0
+        assert (cube - solid).volume <= 1e-6 * cube.volume
+
+
+def test_a_ragged_slender_part_holds_boxes() -> None:
+    """Rods a hundredth as thick as long: the coarsest cells that fit in have 10 mm."""
+    boxes = boxes_inside(frame(0.02))
+    assert sum(box.volume for box in boxes) > 0.1 * frame(0.02).volume
 
 
 def test_points_inside_agree_with_a_formula() -> None:
