@@ -27,6 +27,8 @@ LITTLE = 0.1
 STEPS = {14: 1.0, 28: ENOUGH, 56: ENOUGH, 112: LITTLE, 224: LITTLE}
 """Cells along the longest side, between the planes of faces, and the share of the part's volume
 that coarser ones hold where so fine ones are no longer tried."""
+MOST_CELLS = 400_000
+"""Of a grid; 56 along each of three sides are 180,000, so finer ones serve slender parts alone."""
 CANDIDATES = 200
 """Largest triangles whose normals are tried as axes of a frame."""
 ALIKE = 0.97
@@ -85,6 +87,8 @@ def boxes_inside(solid: Solid) -> tuple[Solid, ...]:
         if _volume(best) >= content * solid.volume:
             break
         lines = [grid_lines(mesh, axis, steps) for axis in range(3)]
+        if np.prod([len(own) - 1 for own in lines]) > MOST_CELLS:
+            break
         least = LEAST * solid.volume
         boxes = cover(cells_inside(mesh, lines), lines, least=least)
         found = tuple(piece for box in boxes for piece in held(box, solid, least=least))
