@@ -1,5 +1,6 @@
 """Tasks over processes: outcomes as they come; one that dies or fails costs its own task alone."""
 
+import errno
 import logging
 import multiprocessing
 import signal
@@ -19,6 +20,8 @@ ATTEMPTS = 2
 """A task whose process died or hung is tried once more in a fresh one."""
 BREAKS = 5
 """Rounds of fresh processes before those that keep dying are blamed on their tasks."""
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
+"""A disk, a quota or a file that is full: every task would fail of it."""
 
 
 class Task(Protocol):
@@ -52,6 +55,9 @@ def run_in_processes(
         timeout_s: a process that works longer on one task is killed.
         lost: the outcome of a task whose process died in every attempt, or that raised what `work`
             did not expect, told the cause.
+
+    Raises:
+        OSError: a disk is full; what is made already stays.
     """
     faults: Counter[T] = Counter()
     waiting, breaks = list(tasks), 0
@@ -78,6 +84,8 @@ def run_in_processes(
                 except BrokenProcessPool as error:  # A process died before it said what it took.
                     cause = str(error)
                 except Exception as error:  # What `work` did not foresee must not end the run.
+                    if isinstance(error, OSError) and error.errno in FULL:
+                        raise
                     log.warning("%s: internal fault", task.asset_id, exc_info=error)
                     yield lost(task, f"internal fault: {error!r}")
                     continue

@@ -1,10 +1,13 @@
 """A process that dies costs its own task alone, after a second try; so does a fault, at once."""
 
+import errno
 import os
 import signal
 import time
 from dataclasses import dataclass
 from pathlib import Path
+
+import pytest
 
 from artgen.pool import ATTEMPTS, run_in_processes
 
@@ -29,6 +32,8 @@ def work(task: Sum) -> str:
         time.sleep(60)
     if task.deed == "raise":
         raise RuntimeError("from a library")
+    if task.deed == "fill":
+        raise OSError(errno.ENOSPC, "no space left")
     return f"{task.asset_id} {os.environ['STARTED']}"
 
 
@@ -65,3 +70,19 @@ def test_a_fault_that_no_one_foresaw_costs_its_own_task_alone(tmp_path: Path) ->
     told = "internal fault: RuntimeError('from a library')"
     assert sorted(outcomes) == [f"0 {told}", "1 1", "2 1", f"3 {told}"]
     assert (tmp_path / "0").read_text() == "x"  # The same again would come of a second try.
+
+
+def test_a_full_disk_ends_the_run(tmp_path: Path) -> None:
+    """Every task that follows would fail of it as well."""
+    tasks = [Sum("0", "fill", str(tmp_path)), Sum("1", "work", str(tmp_path))]
+    outcomes = run_in_processes(
+        tasks,
+        work,
+        workers=1,
+        initializer=_nothing,
+        initargs=(),
+        timeout_s=20.0,
+        lost=lambda task, cause: f"{task.asset_id} {cause}",
+    )
+    with pytest.raises(OSError, match="no space left"):
+        list(outcomes)
