@@ -1,20 +1,27 @@
-"""A few scenes of every object, kept in memory: on a CPU, casting costs more than learning."""
+"""A few scenes of every object, kept on disk: on a CPU, casting costs more than learning."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
 from typing import Any
 
 import torch
+from diskcache import Cache
 from torch import Tensor
 
 from artgen.core.stream import Stream
 from model.batch import Batch
 from model.data.config import DataConfig
+from model.data.flat import from_bytes, to_bytes
 from model.data.items import Source
 from model.data.merge import merged
 from model.data.order import Permutations, Row
 
 LEVELS = 255.0
+IMAGES = frozenset({"images.rgb_BTV3HW", "images.alpha_BTVHW"})
+"""What is kept in bytes."""
 
 
 @dataclass(frozen=True)
@@ -23,11 +30,18 @@ class Kept:
 
     Position k is scene k // n of object k % n of the source's n; its scene follows from the data's
     seed and k alone. Images are held, and given out, in steps of 1 / 255.
+
+    Attributes:
+        folder: holds what was cast, for all processes of a run and for its next start.
     """
 
     source: Source[Any]
     scenes: int
-    _shown: dict[tuple[int, DataConfig], Batch] = field(default_factory=dict, repr=False)
+    folder: Path
+
+    @cached_property
+    def _cast(self) -> Cache:
+        return Cache(str(self.folder), eviction_policy="none", size_limit=2**60)
 
     @property
     def left_out(self) -> Mapping[str, str]:
@@ -47,26 +61,28 @@ class Kept:
 
     def batch(self, planned: Sequence[int], config: DataConfig, device: torch.device) -> Batch:
         """The scenes, cast when first asked for."""
-        shown = [_unpacked(self._item(position, config)) for position in planned]
-        return merged(shown).to(device)
+        return merged([self._item(position, config) for position in planned]).to(device)
 
     def _item(self, position: int, config: DataConfig) -> Batch:
-        key = (position, config)
-        if key not in self._shown:
+        key = f"{_name(config)}/{position}"
+        held = self._cast.get(key)
+        if held is None:
             stream = Stream(config.seed, "kept", position)
             plan = self.source.plan(position % len(self.source), config, stream)
             item = self.source.batch([plan], config, torch.device("cpu"))
-            self._shown[key] = _with_images(item, lambda x: (LEVELS * x).round().byte())
-        return self._shown[key]
+            held = to_bytes(item, {name: _byte for name in IMAGES})
+            self._cast.set(key, held)
+        return from_bytes(held, {name: _float for name in IMAGES})
 
 
-def _unpacked(item: Batch) -> Batch:
-    return _with_images(item, lambda x: x.float() / LEVELS)
+@cache
+def _name(config: DataConfig) -> str:
+    return hashlib.sha256(repr(config).encode()).hexdigest()[:16]
 
 
-def _with_images(item: Batch, change: Callable[[Tensor], Tensor]) -> Batch:
-    images = item.images
-    changed = replace(
-        images, rgb_BTV3HW=change(images.rgb_BTV3HW), alpha_BTVHW=change(images.alpha_BTVHW)
-    )
-    return replace(item, images=changed)
+def _byte(image: Tensor) -> Tensor:
+    return (LEVELS * image).round().byte()
+
+
+def _float(image: Tensor) -> Tensor:
+    return image.float() / LEVELS

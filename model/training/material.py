@@ -91,6 +91,10 @@ def make_missing(material: Material, folder: Path, data: DataConfig, *, show: Sh
         make_library(path, material.request(data.seed), workers=WORKERS, show=show)
 
 
+SCENES = "scenes"
+"""In a run's folder until the run is done: scenes that were cast and come again."""
+
+
 def opened(material: Material, folder: Path, data: DataConfig) -> Source[Any]:
     """The items of all that the material names.
 
@@ -101,11 +105,19 @@ def opened(material: Material, folder: Path, data: DataConfig) -> Source[Any]:
     split, slots = material.split, data.slots
     path = _library(material, folder)
     shards: list[Source[Any]] = [
-        _shown(ShardSource(one, split=split, slots=slots), material.scenes)
-        for one in material.shards
+        _shown(
+            ShardSource(one, split=split, slots=slots), material.scenes, folder / SCENES / f"{k}"
+        )
+        for k, one in enumerate(material.shards, 1)
     ]
     objects: list[Source[Any]] = (
-        [_shown(SoupSource(read_library(path), split=split, slots=slots), material.scenes)]
+        [
+            _shown(
+                SoupSource(read_library(path), split=split, slots=slots),
+                material.scenes,
+                folder / SCENES / "0",
+            )
+        ]
         if path
         else []
     )
@@ -115,9 +127,9 @@ def opened(material: Material, folder: Path, data: DataConfig) -> Source[Any]:
     return Mixed([(mixed_by_number(shards), share), (mixed_by_number(objects), 1.0 - share)])
 
 
-def _shown(source: Source[Any], scenes: int | None) -> Source[Any]:
+def _shown(source: Source[Any], scenes: int | None, folder: Path) -> Source[Any]:
     """Kept before it is mixed: each source then comes round in its own share."""
-    return source if scenes is None else Kept(source, scenes)
+    return source if scenes is None else Kept(source, scenes, folder)
 
 
 def _library(material: Material, folder: Path) -> Path | None:

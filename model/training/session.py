@@ -4,6 +4,7 @@ import dataclasses
 import json
 import logging
 import platform
+import shutil
 from collections.abc import Iterator, Mapping
 from contextlib import nullcontext
 from pathlib import Path
@@ -34,6 +35,7 @@ from model.training.art_file import (
 from model.training.distributed import Plan, Team, joined, wait_for_all, whole
 from model.training.idle import idle_line, idle_terms
 from model.training.material import (
+    SCENES,
     Material,
     make_missing,
     material_hashes,
@@ -98,6 +100,9 @@ def run_session(
             train(run, supply, folder=folder, show=show, draw=_draw(art, supply, team))
             card = _card(source, config, material, run)
             _export(run, art, config, card, folder / RESULT)
+            wait_for_all(team)
+            if team.leads:
+                shutil.rmtree(folder / SCENES, ignore_errors=True)
     return folder / RESULT
 
 
