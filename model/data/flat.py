@@ -11,7 +11,11 @@ from torch import Tensor
 from model.batch import Articulation, Batch, Images, Rays, TensorBlock
 
 Changes = Mapping[str, Callable[[Tensor], Tensor]]
-BLOCKS: Mapping[str, type[TensorBlock]] = {"images": Images, "truth": Articulation, "rays": Rays}
+BLOCKS: Mapping[str, Callable[..., TensorBlock]] = {
+    "images": Images,
+    "truth": Articulation,
+    "rays": Rays,
+}
 
 
 def to_bytes(batch: Batch, changes: Changes) -> bytes:
@@ -37,7 +41,8 @@ def from_bytes(data: bytes, changes: Changes) -> Batch:
     for name, tensor in load(data[end:]).items():
         _put(fields, name, changes[name](tensor) if name in changes else tensor)
     top = fields.pop("")
-    return Batch(**top, **{name: BLOCKS[name](**held) for name, held in fields.items()})
+    blocks: dict[str, Any] = {name: BLOCKS[name](**held) for name, held in fields.items()}
+    return Batch(**top, **blocks)
 
 
 def _flat(block: TensorBlock, before: str) -> list[tuple[str, object]]:
