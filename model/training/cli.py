@@ -57,8 +57,9 @@ class Train:
     """Share of what is shown that comes from --shards, such as 0.2, where --library or --categories
     gives objects as well; by their numbers if not given, a hundredth at least."""
     scenes: int | None = None
-    """Show every object in this many scenes, kept on disk until the run is done, instead of a new one
-    each time: half the work on a CPU, less variety. What comes twenty times is learned by heart."""
+    """Show every object in this many scenes, kept on disk until the run is done, instead of a new
+    one each time: half the work on a CPU, less variety. What comes twenty times is learned by
+    heart."""
     start: Path | None = None
     """Begin with the weights of this file: art.safetensors of another run, or a checkpoint."""
     set: tuple[str, ...] = ()

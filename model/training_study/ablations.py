@@ -50,7 +50,7 @@ class Ablations:
     objects: int = 800
     """Objects to learn from."""
     scenes: int | None = 3
-    """Scenes of every object, kept in memory, as casting costs a CPU as much as learning; None
+    """Scenes of every object, kept on disk, as casting costs a CPU as much as learning; None
     draws new ones each time, which a GPU casts by itself."""
     held_out: int = 60
     """Objects to be judged on."""

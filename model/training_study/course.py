@@ -20,7 +20,7 @@ class Course:
     Attributes:
         steps: updates in all.
         batch: objects of one update.
-        scenes: in which every object is seen, kept in memory; None draws new ones each time.
+        scenes: in which every object is seen, kept on disk; None draws new ones each time.
         settings: what else is changed of the recipe, in every arm.
     """
 

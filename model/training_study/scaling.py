@@ -48,7 +48,7 @@ class Scaling:
     batch: int = 16
     """Objects of an update."""
     scenes: int | None = 4
-    """Scenes of every object, kept in memory; None draws new ones each time."""
+    """Scenes of every object, kept on disk; None draws new ones each time."""
     held_out: int = 100
     """Objects to be judged on."""
     device: Literal["auto", "cpu", "cuda"] = "auto"
