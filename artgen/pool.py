@@ -84,10 +84,7 @@ def run_in_processes(
                 except BrokenProcessPool as error:  # A process died before it said what it took.
                     cause = str(error)
                 except Exception as error:  # What `work` did not foresee must not end the run.
-                    if isinstance(error, OSError) and error.errno in FULL:
-                        raise
-                    log.warning("%s: internal fault", task.asset_id, exc_info=error)
-                    yield lost(task, f"internal fault: {error!r}")
+                    yield lost(task, _unforeseen(task, error))
                     continue
                 else:
                     yield outcome
@@ -98,6 +95,14 @@ def run_in_processes(
                 else:
                     yield lost(task, f"its process died {ATTEMPTS} times: {cause}")
         waiting, breaks = again, breaks + 1
+
+
+def _unforeseen(task: Task, error: Exception) -> str:
+    """The cause that is told; a full disk, of which every task would fail, is raised."""
+    if isinstance(error, OSError) and error.errno in FULL:
+        raise error
+    log.warning("%s: internal fault", task.asset_id, exc_info=error)
+    return f"internal fault: {error!r}"
 
 
 @contextmanager
