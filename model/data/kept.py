@@ -1,6 +1,5 @@
 """A few scenes of every object, kept on disk: on a CPU, casting costs more than learning."""
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -11,6 +10,7 @@ import torch
 from diskcache import Cache
 from torch import Tensor
 
+from artgen.core.jsonio import content_hash
 from artgen.core.stream import Stream
 from model.batch import Batch
 from model.data.config import DataConfig
@@ -20,7 +20,7 @@ from model.data.merge import merged
 from model.data.order import Permutations, Row
 
 LEVELS = 255.0
-IMAGES = frozenset({"images.rgb_BTV3HW", "images.alpha_BTVHW"})
+IMAGES = ("images.rgb_BTV3HW", "images.alpha_BTVHW")
 """What is kept in bytes."""
 
 
@@ -70,14 +70,14 @@ class Kept:
             stream = Stream(config.seed, "kept", position)
             plan = self.source.plan(position % len(self.source), config, stream)
             item = self.source.batch([plan], config, torch.device("cpu"))
-            held = to_bytes(item, {name: _byte for name in IMAGES})
+            held = to_bytes(item, dict.fromkeys(IMAGES, _byte))
             self._cast.set(key, held)
-        return from_bytes(held, {name: _float for name in IMAGES})
+        return from_bytes(held, dict.fromkeys(IMAGES, _float))
 
 
 @cache
 def _name(config: DataConfig) -> str:
-    return hashlib.sha256(repr(config).encode()).hexdigest()[:16]
+    return content_hash(config)[:16]
 
 
 def _byte(image: Tensor) -> Tensor:
