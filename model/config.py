@@ -209,6 +209,8 @@ class LossWeights:
     Attributes:
         center: squared distance of box centers.
         size: squared difference of box sizes.
+        overlap: 1 - generalized IoU of boxes; beyond the paper: squared lengths hardly see small
+            parts, of which this asks as much as of large ones.
         type: cross-entropy of revolute and prismatic, movable parts.
         axis: squared difference of unit axes, movable parts.
         origin: squared distance of axis points, revolute parts.
@@ -248,6 +250,7 @@ class LossWeights:
     origin_to: Literal["point", "line"] = "point"
     axis_sign: Literal["data", "free"] = "data"
     unmoved: float = 0.0
+    overlap: float = dataclasses.field(default=0.0, metadata=LATER)
     motion_as: Literal["numbers", "paths"] = dataclasses.field(default="numbers", metadata=LATER)
 
 

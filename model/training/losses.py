@@ -20,6 +20,7 @@ from model.config import LossWeights
 from model.field.volume import RayColors
 from model.network.prediction import TYPE_OF_LOGIT, Prediction
 from model.precision import full
+from model.training.box_overlap import generalized_iou
 
 ImageDistance = Callable[[Tensor, Tensor], Tensor]
 """(X, 3, h, w) and the same again, colors in [0, 1] -> (X,) how different they look."""
@@ -69,6 +70,7 @@ def articulation_terms(
     terms = {
         "center": squared(said.center_BP3, truth.center_BP3, held),
         "size": squared(said.size_BP3, truth.size_BP3, held),
+        "overlap": mean(1.0 - generalized_iou(said, truth), held),
         "type": type_entropy(prediction.type_logits_BP2, truth.type_BP, moves),
         "axis": squared(sign_BP1 * prediction.axis_BP3, truth.axis_BP3, taught),
         "origin": origin_error(

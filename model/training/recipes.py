@@ -94,12 +94,12 @@ TRAIN: Mapping[Size, TrainConfig] = {
     ),
 }
 
-BY_PATHS = LossWeights(motion=10.0, motion_as="paths")
-"""Motions compared by the ways that parts go, as the small sizes learn them."""
+SMALL = LossWeights(motion=10.0, motion_as="paths", overlap=4.0)
+"""Motions compared by the ways that parts go, boxes by their overlap as well."""
 
 WEIGHTS: Mapping[Size, LossWeights] = {
-    "nano": dataclasses.replace(BY_PATHS, part_perceptual=0.0),
-    "s": BY_PATHS,
+    "nano": dataclasses.replace(SMALL, part_perceptual=0.0),
+    "s": SMALL,
     "paper": LossWeights(limits=0.0, parent=0.0, count=0.0),
 }
 """Of terms that are computed: `nano` has no patches to compare, `paper` no heads of ours."""

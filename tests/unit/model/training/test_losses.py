@@ -26,7 +26,7 @@ from model.training.losses import (
 from tests.unit.model.box_scenes import box_field, cabinet
 from tests.unit.model.tiny_art import BEYOND, SLOTS, drawn_batch, drawn_truth, made
 
-ALL = LossWeights(rgb=1.0, mask=1.0, distance=0.1)
+ALL = LossWeights(rgb=1.0, mask=1.0, distance=0.1, overlap=1.0)
 CERTAIN = 40.0
 """A logit: exp(-40) is below half an eps of float64, so cross-entropies of it are 0."""
 
@@ -72,7 +72,18 @@ def test_nothing_is_lost_at_the_truth() -> None:
     assert batch.rays is not None
     table = losses(perfect(batch.truth), batch, ALL, seen(batch.rays))
     assert set(table) == {
-        *("center", "size", "type", "axis", "origin", "motion", "limits", "parent", "count"),
+        *(
+            "center",
+            "size",
+            "overlap",
+            "type",
+            "axis",
+            "origin",
+            "motion",
+            "limits",
+            "parent",
+            "count",
+        ),
         *("part_rgb", "part_mask", "rgb", "mask", "distance", "total"),
     }
     # A cross-entropy of logits 40 apart is exp(-40) = 4e-18 per part.
