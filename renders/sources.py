@@ -10,7 +10,7 @@ from pathlib import Path
 
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import write_json
-from artgen.dataset.listing import BUNDLES
+from artgen.dataset.listing import BUNDLES, sample_path
 from artgen.export.layout import MANIFEST
 from artgen.run_folder import RunFolder, locked, opened
 
@@ -30,7 +30,7 @@ class Found:
     @property
     def sample(self) -> Path:
         """Where its sample lies among samples: <category>/<rest of the id>.tar."""
-        return Path(self.category) / f"{self.asset_id.removeprefix(f'{self.category}_')}.tar"
+        return sample_path(self.asset_id, self.category)
 
 
 def is_run(folder: Path) -> bool:

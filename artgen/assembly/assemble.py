@@ -10,7 +10,6 @@ from artgen.assembly.choice import OWN, Group, Market
 from artgen.assembly.clash import Pair, clashing, template_open
 from artgen.assembly.fill import Fill, Misfit, filled, gripped, handle_on, middle_grip
 from artgen.assembly.library import Entry
-from artgen.assembly.licence import Licence, most_restrictive
 from artgen.assembly.looks import (
     Looks,
     body_surface,
@@ -26,6 +25,7 @@ from artgen.assembly.shape_hash import looks_hash, object_hash, shape_hash, tree
 from artgen.assembly.source import Member, Source
 from artgen.assembly.surface_table import Change, SurfaceTable
 from artgen.assembly.variation import edged, shortened, takes_push, with_push
+from artgen.core.licence import Licence, most_restrictive
 from artgen.core.stream import Stream
 from artgen.core.surface import SurfaceSpec
 from artgen.finish import ATLAS_RESOLUTION

@@ -9,10 +9,10 @@ from typing import Any
 
 from artgen.articulation.canonical import canonicalize
 from artgen.assembly.finished import finished_object
-from artgen.assembly.licence import licence_of
 from artgen.assembly.source import Source, source_of_draft, source_of_object
 from artgen.core.errors import ExportError, UsageError
 from artgen.core.jsonio import file_hash
+from artgen.core.licence import licence_of
 from artgen.core.stream import Stream
 from artgen.dataset.split import OURS, families_of
 from artgen.export import read_bundle

@@ -16,7 +16,6 @@ from artgen.assembly.assemble import Assembled
 from artgen.assembly.case import Case
 from artgen.assembly.clash import more_open, open_overlaps, template_open
 from artgen.assembly.evenness import density_by_part, density_by_surface
-from artgen.assembly.licence import most_restrictive
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.piece import Piece, body_volumes
 from artgen.assembly.shape_hash import shape_hash, tree_hash
@@ -24,6 +23,7 @@ from artgen.assembly.source import Member
 from artgen.assembly.texels import STRETCH, stretch
 from artgen.assembly.uv_fix import areas
 from artgen.assembly.variation import LEAST_TRAVEL, may_shorten
+from artgen.core.licence import most_restrictive
 from artgen.core.transform import apply
 from artgen.dataset.split import split_of
 from artgen.geometry.clearance import shape_of_mesh

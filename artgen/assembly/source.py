@@ -16,9 +16,9 @@ from artgen.articulation.types import (
     Joint,
     Precondition,
 )
-from artgen.assembly.licence import OURS, Licence
 from artgen.assembly.piece import Piece, body_boxes, joined, picked, piece_of_part
 from artgen.assembly.split import Split, split_bodies
+from artgen.core.licence import OURS, Licence
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
 from artgen.export.manifest import open_bodies

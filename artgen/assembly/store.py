@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 
 from artgen.articulation.types import Precondition
-from artgen.assembly.licence import Licence
 from artgen.assembly.piece import Piece
 from artgen.assembly.source import Member, Source
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import plain, write_bytes, write_json
+from artgen.core.licence import stated_licence
 from artgen.core.mesh import TriMesh
 from artgen.export.bundle import read_grip, read_joint, read_surface
 from artgen.export.kinematics import as_file_joint
@@ -142,7 +142,7 @@ def read_source(folder: Path, id: str) -> Source:
             category=stated["category"],
             dataset=stated["dataset"],
             family=stated["family"],
-            licence=Licence(**stated["licence"]),
+            licence=stated_licence(stated["licence"]),
             base=read_piece(folder, stated["base"]),
             base_name=stated["base_name"],
             members=tuple(_member(folder, entry) for entry in stated["members"]),

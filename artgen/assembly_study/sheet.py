@@ -10,12 +10,12 @@ from PIL import Image
 from artgen.articulation.types import ArticulatedObject
 from artgen.assembly.assemble import Assembled, finished
 from artgen.assembly.choice import Market
-from artgen.assembly.licence import most_restrictive
 from artgen.assembly.piece import joined
 from artgen.assembly.placing import Named, placed
 from artgen.assembly.run import new_object
 from artgen.assembly.source import Source
 from artgen.assembly_study.rows import WHAT
+from artgen.core.licence import most_restrictive
 from artgen.export.glb import write_glb
 from artgen.export.layout import GLB, TEXTURES
 from artgen.export.write import copy_images

@@ -8,7 +8,7 @@ from artgen.core.errors import ShardError
 from artgen.dataset.catalog import write_catalog
 from artgen.dataset.listing import listed_assets
 from artgen.dataset.packing import PER_SHARD, Packing, pack
-from artgen.dataset.terms import refuse_bound, terms_of, write_terms
+from artgen.dataset.terms import forget_terms, refuse_bound, terms_of, write_terms
 from artgen.progress import Show, silent
 
 
@@ -46,13 +46,12 @@ def shard_folder(
             f"{out}: holds no sample of a valid asset; make some with `artgen generate` or "
             "`artgen render`"
         )
-    licences, bound = terms_of(
-        asset for asset in listed_assets(out) if asset.valid and asset.sample.exists()
-    )
+    terms = terms_of(asset for asset in listed_assets(out) if asset.valid and asset.sample.exists())
     if public:
-        refuse_bound(out, bound)
+        refuse_bound(out, terms.bound)
+    forget_terms(out / "shards")
     packing = pack(staged, out / "shards", per_shard=per_shard, left_out=left_out, show=show)
-    write_terms(out / "shards", licences, bound)
+    write_terms(out / "shards", terms)
     return Sharded(packing=packing, shards=out / "shards", catalog=write_catalog(out, packing))
 
 

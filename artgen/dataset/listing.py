@@ -7,6 +7,8 @@ from pathlib import Path
 
 from artgen.core.errors import ShardError
 
+MANIFEST = "manifest.json"
+"""Of a bundle."""
 BUNDLES = "bundles.json"
 """Written by `artgen render` where a rendering lies apart from its bundles: asset id to their
 folder, relative to the rendering's."""
@@ -37,21 +39,39 @@ def listed_assets(out: Path) -> list[Listed]:
     """
     if (out / BUNDLES).exists():
         return _elsewhere(out)
-    return sorted(
-        (
-            Listed(
-                asset_id=f"{folder.parent.name}_{folder.name}",
-                category=folder.parent.name,
-                bundle=folder,
-                sample=out / "samples" / folder.parent.name / f"{folder.name}.tar",
-                valid=root == "assets",
-            )
-            for root in ("assets", "failed")
-            for folder in (out / root).glob("*/*")
-            if folder.is_dir() and folder.name.isdigit()
-        ),
-        key=lambda asset: asset.asset_id,
+    found = (
+        _in_run(out, folder, valid=root == "assets")
+        for root in ("assets", "failed")
+        for folder in (out / root).glob("*/*")
+        if folder.is_dir() and (folder.name.isdigit() or (folder / MANIFEST).is_file())
     )
+    return sorted(found, key=lambda asset: asset.asset_id)
+
+
+def _in_run(out: Path, folder: Path, *, valid: bool) -> Listed:
+    """As its folders are named, if they are named as those of generated ones and its sample lies
+    there; else as its manifest says: ingested and assembled ones are called otherwise."""
+    category, samples = folder.parent.name, out / "samples"
+    asset_id, sample = f"{category}_{folder.name}", samples / category / f"{folder.name}.tar"
+    generated = folder.name.isdigit() and sample.exists()
+    if not generated and (named := _named(folder / MANIFEST)) is not None:
+        asset_id, category = named
+        sample = samples / sample_path(asset_id, category)
+    return Listed(asset_id=asset_id, category=category, bundle=folder, sample=sample, valid=valid)
+
+
+def sample_path(asset_id: str, category: str) -> Path:
+    """Where a sample lies among samples: <category>/<rest of the id>.tar."""
+    return Path(category) / f"{asset_id.removeprefix(f'{category}_')}.tar"
+
+
+def _named(manifest: Path) -> tuple[str, str] | None:
+    """Id and category; None where no manifest states them, which whoever reads on tells."""
+    try:
+        facts = json.loads(manifest.read_text(encoding="utf-8"))
+        return str(facts["asset_id"]), str(facts["category"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
 
 
 def _elsewhere(out: Path) -> list[Listed]:

@@ -1,7 +1,8 @@
 """Shards to an object store, so that of two packings one wins and readers see whole shards only.
 
 1. `dataset.json` goes up first, on the condition that there is none (`If-None-Match: *`). Whoever
-   finds another packing's there has lost, and has changed nothing.
+   finds another packing's there has lost, and has changed nothing. `terms.json` follows in the same
+   way, so that no shard is there without what says whether it may be handed on.
 2. Of every shard the index and the tar go up, then the manifest, again conditionally.
 
 A publisher that died is finished by the same command, by anybody who holds the same bytes; readers
@@ -15,6 +16,7 @@ from artgen.core.errors import ShardError
 from artgen.dataset.contents import CONTENTS, ListedShard, read_contents
 from artgen.dataset.shard import check_size, index_name, is_whole, manifest_name, read_manifest
 from artgen.dataset.store import LocalStore, Target, opened_target
+from artgen.dataset.terms import TERMS
 
 
 def publish(
@@ -38,6 +40,8 @@ def publish(
                 f"{folder / shard.file}: is not whole; see `artgen shard verify {folder}`"
             )
     _put_once(target, CONTENTS, source.read(CONTENTS))
+    if (folder / TERMS).exists():
+        _put_once(target, TERMS, source.read(TERMS))
     for shard in shards:
         if not _is_there(target, source, shard.file):
             target.put(index_name(shard.file), folder / index_name(shard.file))

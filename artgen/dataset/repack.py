@@ -9,7 +9,7 @@ from artgen.dataset.packing import Packing, Plan, carry_out, planned, write_grou
 from artgen.dataset.reader import OpenShard, open_shard
 from artgen.dataset.shard import ShardManifest
 from artgen.dataset.store import LocalStore
-from artgen.dataset.terms import carry_terms
+from artgen.dataset.terms import carry_terms, forget_terms
 from artgen.progress import Show, silent
 
 
@@ -24,7 +24,9 @@ def repack(source: Path, into: Path, *, per_shard: int, show: Show = silent) -> 
     """
     if source.resolve() == into.resolve():
         raise ShardError(f"{into}: cannot be packed into itself; name another folder with --into")
-    packing = carry_out(_plan(source, into, per_shard), show=show)
+    plan = _plan(source, into, per_shard)
+    forget_terms(into)
+    packing = carry_out(plan, show=show)
     carry_terms(source, into)
     return packing
 

@@ -2,43 +2,83 @@
 
 import json
 import shutil
-from collections import Counter
-from collections.abc import Iterable
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from artgen.core.errors import ShardError
 from artgen.core.jsonio import write_json
+from artgen.core.licence import OURS, licence_of, sources_of
 from artgen.dataset.listing import Listed, listed_assets
 
 TERMS = "terms.json"
-"""Beside the shards: licence ids with how many assets are under each, and whether the set may be
-handed on."""
-OURS = "LicenseRef-artgen-output"
-"""Of assets whose manifest states no other source."""
+"""Beside the shards: licence ids with how many assets are under each, whether the set may be handed
+on, and whose works its assets are made from."""
 TOLD = 5
 """Assets that a refusal names."""
 
 
-def terms_of(assets: Iterable[Listed]) -> tuple[Counter[str], list[str]]:
-    """How many assets are under each licence, and the ids of those that may not be handed on.
+@dataclass(frozen=True, kw_only=True)
+class Terms:
+    """Of a set.
+
+    Attributes:
+        licences: identifier to how many assets are under it.
+        bound: ids of the assets that may not be handed on.
+        sources: identifier to the foreign works under it that assets are made from; licences that
+            ask for their makers' names are kept with them.
+    """
+
+    licences: Mapping[str, int]
+    bound: list[str]
+    sources: Mapping[str, list[str]]
+
+
+def terms_of(assets: Iterable[Listed]) -> Terms:
+    """Terms of some assets, told by their manifests.
 
     Raises:
         ShardError: a manifest cannot be read.
     """
     licences: Counter[str] = Counter()
+    sources: dict[str, set[str]] = defaultdict(set)
     bound = []
     for asset in assets:
-        licence, free = _licence(asset.bundle / "manifest.json")
-        licences[licence] += 1
-        if not free:
+        facts = _manifest(asset.bundle / "manifest.json")
+        licence = licence_of(facts)
+        licences[licence.id] += 1
+        if not licence.distributable:
             bound.append(asset.asset_id)
-    return licences, bound
+        for source, id in foreign_sources(facts):
+            sources[id].add(source)
+    return Terms(
+        licences=dict(sorted(licences.items())),
+        bound=bound,
+        sources={id: sorted(names) for id, names in sorted(sources.items())},
+    )
 
 
-def write_terms(shards: Path, licences: Counter[str], bound: list[str]) -> None:
+def foreign_sources(facts: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """The works that a manifest names other than our generators', with identifiers of their
+    licences: the sources of an assembled object's parts, or what an ingested one was."""
+    parts = list(sources_of(facts))
+    origin = facts.get("source")
+    if not parts and isinstance(origin, Mapping):
+        parts = [(f"{origin.get('dataset')}:{origin.get('id')}", licence_of(facts).id)]
+    return ((source, id) for source, id in parts if id != OURS.id)
+
+
+def write_terms(shards: Path, terms: Terms) -> None:
     """terms.json beside shards."""
-    facts = {"distributable": not bound, "licences": dict(sorted(licences.items())), "bound": bound}
-    write_json(shards / TERMS, facts)
+    write_json(shards / TERMS, {"distributable": not terms.bound, **vars(terms)})
+
+
+def forget_terms(shards: Path) -> None:
+    """Take away the terms of shards that are about to change: until they are written again nobody
+    can tell whether the set may be handed on."""
+    (shards / TERMS).unlink(missing_ok=True)
 
 
 def carry_terms(source: Path, into: Path) -> None:
@@ -46,7 +86,7 @@ def carry_terms(source: Path, into: Path) -> None:
     if (source / TERMS).exists():
         shutil.copyfile(source / TERMS, into / TERMS)
     elif assets := [a for a in listed_assets(source) if a.valid and a.sample.exists()]:
-        write_terms(into, *terms_of(assets))
+        write_terms(into, terms_of(assets))
 
 
 def refuse_bound(where: Path, bound: list[str]) -> None:
@@ -65,6 +105,8 @@ def refuse_bound_shards(shards: Path) -> None:
     try:
         facts = json.loads((shards / TERMS).read_text(encoding="utf-8"))
         bound = [str(asset_id) for asset_id in facts["bound"]]
+        if facts["distributable"] is not (not bound):
+            raise ValueError("it contradicts itself")
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise ShardError(
             f"{shards / TERMS}: cannot be read ({error!r}), so nobody can tell whether the shards "
@@ -73,14 +115,11 @@ def refuse_bound_shards(shards: Path) -> None:
     refuse_bound(shards, bound)
 
 
-def _licence(path: Path) -> tuple[str, bool]:
-    """A manifest's licence and whether copies may be handed on; a foreign source that states none
-    may not."""
+def _manifest(path: Path) -> Mapping[str, Any]:
     try:
         facts = json.loads(path.read_text(encoding="utf-8"))
-        stated = facts.get("licence")
-        if stated is None:
-            return ("NOASSERTION", False) if "source" in facts else (OURS, True)
-        return str(stated["id"]), stated["distributable"] is True
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, ValueError) as error:
         raise ShardError(f"{path}: cannot be read ({error!r}); make the asset again") from error
+    if not isinstance(facts, Mapping):
+        raise ShardError(f"{path}: holds no JSON object; make the asset again")
+    return facts

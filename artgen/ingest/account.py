@@ -5,17 +5,22 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from artgen.assembly.licence import KNOWN, UNSTATED, Licence, most_restrictive
 from artgen.core.conventions import ART_SLOTS
 from artgen.core.jsonio import plain
+from artgen.core.licence import (
+    OF_DATASETS,
+    UNSTATED,
+    Licence,
+    datasets_of,
+    most_restrictive,
+    stated_licence,
+)
 from artgen.ingest.foreign import ForeignJoint, ForeignObject
 from artgen.ingest.meshes.clean import Body, Washed
 from artgen.ingest.options import Options
 from artgen.ingest.placing import Place
 from artgen.ingest.rest import Rest
 
-LICENCES = {"partnet-mobility": KNOWN["LicenseRef-PartNet-Mobility"]}
-"""By data set, whatever else is said; others state theirs, or the user does."""
 FINE = ("given", "high", "medium")
 
 
@@ -92,16 +97,12 @@ def borrowed(foreign: ForeignObject) -> dict[str, Any]:
 def licence(foreign: ForeignObject, options: Options) -> Licence:
     """The most restrictive of what binds it: the terms of its data set, what the source states,
     and what the user does, who can name terms but not lift any."""
-    stated, origin = foreign.note.get("licence"), foreign.note.get("source")
-    of_old = origin.get("dataset") if isinstance(origin, Mapping) else None
-    sets = [foreign.dataset, *str(of_old).split("+")]  # Assembled objects name several.
-    bound = [LICENCES[name] for name in sets if name in LICENCES]
-    if isinstance(stated, Mapping) and isinstance(stated.get("id"), str):
-        bound.append(KNOWN.get(stated["id"], UNSTATED))
+    sets = sorted({foreign.dataset} | datasets_of(foreign.note))
+    bound = [OF_DATASETS[name] for name in sets if name in OF_DATASETS]
+    if (stated := foreign.note.get("licence")) is not None:
+        bound.append(stated_licence(stated))
     if options.licence is not None:
-        bound.append(KNOWN.get(options.licence, Licence(
-            id=options.licence, text=f"Stated by the user: {options.licence}.", distributable=False
-        )))  # fmt: skip
+        bound.append(stated_licence(options.licence))
     return most_restrictive(bound) if bound else UNSTATED
 
 

@@ -12,8 +12,8 @@ from typing import Annotated
 import tyro
 from rich.console import Console
 
-from artgen.assembly.licence import KNOWN
 from artgen.core.errors import UsageError, did_you_mean
+from artgen.core.licence import KNOWN
 from artgen.ingest.found import Found, found_files, found_folders
 from artgen.ingest.meshes.scenes import MESHES
 from artgen.ingest.options import GivenRest, Options

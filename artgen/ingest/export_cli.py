@@ -12,9 +12,9 @@ import tyro
 from rich.console import Console
 
 from artgen.assembly.finished import finished_object
-from artgen.assembly.licence import licence_of
 from artgen.core.errors import ArtgenError, ExportError, UsageError
 from artgen.core.jsonio import file_hash, fill_folder_atomically
+from artgen.core.licence import licence_of
 from artgen.export.glb_content import read_glb
 from artgen.export.layout import GLB, MANIFEST
 from artgen.export.partnet.write import NOTE, write_partnet

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from artgen.assembly.licence import licence_of
+from artgen.core.licence import licence_of
 from artgen.export import read_bundle
 from artgen.ingest.cli import partnet
 from artgen.ingest.export_cli import partnet as export_partnet

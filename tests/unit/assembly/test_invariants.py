@@ -12,8 +12,8 @@ import pytest
 from artgen.articulation.types import Limit
 from artgen.assembly import invariants
 from artgen.assembly.invariants import broken
-from artgen.assembly.licence import KNOWN
 from artgen.assembly_study.rows import left_as_it_was
+from artgen.core.licence import KNOWN
 from artgen.dataset.split import split_of
 from tests.unit.assembly.mutations import (
     has,

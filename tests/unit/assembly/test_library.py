@@ -9,10 +9,10 @@ import pytest
 
 from artgen.assembly.choice import Market, suits
 from artgen.assembly.library import MOST_PARTS, Library, is_slot, seal_library, write_library
-from artgen.assembly.licence import KNOWN
 from artgen.assembly.shape_hash import shape_hash
 from artgen.assembly.store import read_source
 from artgen.core.errors import UsageError
+from artgen.core.licence import KNOWN
 from artgen.core.stream import Stream
 from artgen.dataset.split import split_of
 

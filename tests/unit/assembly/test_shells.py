@@ -13,11 +13,11 @@ from artgen.assembly.choice import Market
 from artgen.assembly.fit import moved_piece
 from artgen.assembly.invariants import broken
 from artgen.assembly.library import Library, is_slot, write_library
-from artgen.assembly.licence import licence_of
 from artgen.assembly.piece import joined, picked, piece_of_part, weighed
 from artgen.assembly.source import Source, shells_of, source_of_object
 from artgen.assembly.store import read_source
 from artgen.core.jsonio import plain
+from artgen.core.licence import licence_of
 from artgen.core.stream import Stream
 from artgen.export.manifest import closed_volume, open_bodies
 from artgen.geometry.measure import closed

@@ -8,7 +8,6 @@ import pytest
 from artgen.articulation.canonical import canonicalize
 from artgen.articulation.types import Grip, Joint, Limit
 from artgen.assembly.build import sharp
-from artgen.assembly.licence import OURS
 from artgen.assembly.piece import body_boxes, body_volumes, joined, picked, piece_of_part, weighed
 from artgen.assembly.source import (
     HANDLE_LEAVES,
@@ -19,6 +18,7 @@ from artgen.assembly.source import (
     source_of_object,
 )
 from artgen.assembly.split import split_bodies
+from artgen.core.licence import OURS
 from artgen.geometry.convex import as_box
 from tests.made import drafted, finished
 from tests.unit.assembly.test_fit import piece_of

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from artgen.assembly.licence import licence_of
 from artgen.core.jsonio import plain
+from artgen.core.licence import licence_of
 from artgen.export.partnet.write import write_partnet
 from artgen.ingest.account import borrowed, licence, source
 from artgen.ingest.foreign import ForeignObject
