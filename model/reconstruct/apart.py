@@ -16,7 +16,8 @@ from artgen.geometry.clearance import Mover, inverted_poses, overlaps, shape_of_
 from artgen.geometry.solid import Solid, union
 from artgen.validate.sweep import Sweep, sweep_poses
 from model.reconstruct.cover import Convex, convex_cover, grown, swept
-from model.reconstruct.planes import parted
+from model.reconstruct.freedom import have_ways_out
+from model.reconstruct.planes import Parting, partings
 from model.reconstruct.scene import Scene, sweeps_of
 from model.reconstruct.shapes import mended, sound
 
@@ -34,6 +35,8 @@ WIDE = 2.5
 MOST_PARTED = 0.8
 """Share of its volume that a plane may take; beyond, the part that hangs on the other becomes a
 piece of what carries it."""
+MOST_ASIDE = 0.5
+"""The same of a plane that takes more than another, which would leave a part no way out."""
 MOST_GIVEN = 0.5
 """The same where its way would else be all but lost."""
 LEAST_LEFT = 0.4
@@ -107,10 +110,29 @@ def _deep(scene: Scene, one: str, other: str) -> bool:
 
 
 def _parted(scene: Scene, loses: str, wins: str, gap: float) -> Scene:
-    """Two parts on the sides of a plane."""
-    found = parted(scene.solids[loses], scene.solids[wins], gap)
-    if found is None or found.lost > MOST_PARTED:
+    """Two parts on the sides of a plane: the one that takes least, but for one that leaves a part
+    behind the other for good where another plane does not."""
+    found = [
+        own
+        for own in partings(scene.solids[loses], scene.solids[wins], gap)
+        if own.lost <= MOST_PARTED
+    ]
+    if not found:
         return scene.fixed(scene.joint_of(wins).name, f"it cannot be told from {loses}")
+    least = _with_parting(scene, loses, wins, found[0])
+    if have_ways_out(least, loses, wins):
+        return least
+    for own in found[1:]:
+        beside = _with_parting(scene, loses, wins, own)
+        if own.lost <= MOST_ASIDE and have_ways_out(beside, loses, wins):
+            return beside.told(
+                f"a plane across {'xyz'[found[0].axis]} would have taken less, but left one of "
+                "them no way out"
+            )
+    return least
+
+
+def _with_parting(scene: Scene, loses: str, wins: str, found: Parting) -> Scene:
     told = (
         f"{loses} and {wins} were sunk into each other; a plane across {'xyz'[found.axis]} parts "
         f"them, which took {found.lost:.0%} of one at most"

@@ -26,22 +26,24 @@ class Parting:
     lost: float
 
 
-def parted(one: Solid, other: Solid, gap: float) -> Parting | None:
-    """Two solids parted along the plane across an axis that takes least from whom it takes most,
-    `gap` m between them; None where none leaves both.
+def partings(one: Solid, other: Solid, gap: float) -> list[Parting]:
+    """Two solids parted by planes `gap` m between them: across each axis the one that takes least
+    from whom it takes most, the best of them first; none where none leaves both.
 
     Planes are tried in the middle and at both ends of what the two share along each axis.
     """
     lower = np.maximum(one.bounds[0], other.bounds[0])
     upper = np.minimum(one.bounds[1], other.bounds[1])
-    best: Parting | None = None
+    found = []
     for axis in range(3):
-        for height in (lower[axis], (lower[axis] + upper[axis]) / 2.0, upper[axis]):
-            for sign in (1.0, -1.0):
-                found = _at(one, other, axis, float(height), sign, gap)
-                if found is not None and (best is None or found.lost < best.lost):
-                    best = found
-    return best
+        tried = [
+            _at(one, other, axis, float(height), sign, gap)
+            for height in (lower[axis], (lower[axis] + upper[axis]) / 2.0, upper[axis])
+            for sign in (1.0, -1.0)
+        ]
+        left = [own for own in tried if own is not None]
+        found += [min(left, key=lambda own: own.lost)] if left else []
+    return sorted(found, key=lambda own: own.lost)
 
 
 def _at(

@@ -11,20 +11,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from artgen.articulation.types import Joint
-from artgen.geometry.clearance import Mover, overlaps, shape_of_solids
-from artgen.validate.sweep import Sweep, sweep_poses
+from model.reconstruct.freedom import ENOUGH, free_share
 from model.reconstruct.scene import Scene
 
-POSES = 11
-"""Places along a joint's way at which it is looked whether it is free."""
-ENOUGH = 0.5
-"""Share of its way that a joint has free to be left alone."""
 GAIN = 0.15
 """Share of its way that another place must free more."""
 FARTHEST = 0.25
 """Share of a part's diagonal by which its hinge may be off; an edge beyond is another hinge."""
-NOISE = 0.04
-"""Share of the smaller of two parts that may meet and be cut away later."""
 
 
 def unblocked(scene: Scene) -> Scene:
@@ -72,30 +65,3 @@ def places(scene: Scene, joint: Joint) -> Iterator[tuple[Joint, str]]:
             moved = dataclasses.replace(joint, origin=(x, y, z))
             yield moved, f"was moved by {way:.3g} m to an edge of {joint.child}"
     yield turned, "was turned around"
-
-
-def free_share(scene: Scene, name: str) -> float:
-    """Share of a joint's way, from rest to its nearer end, on which nothing meets deeply."""
-    joint = scene.joint(name)
-    upper = np.pi if joint.limit is None else joint.limit.upper
-    path = np.linspace(0.0, upper, POSES)[1:]
-    sweep = Sweep(joint=name, states=tuple({name: q} for q in path.tolist()))
-    poses = sweep_poses(scene.base, scene.joints, sweep)
-    moved = scene.moved_by(name)
-    names = list(scene.solids)
-    movers = [
-        Mover(name=own, shape=shape_of_solids([scene.solids[own]]), poses=poses[own])
-        for own in names
-    ]
-    pairs = [
-        (min(a, b), max(a, b))
-        for a, one in enumerate(names)
-        for b, other in enumerate(names)
-        if one in moved and other not in moved
-    ]
-    first = len(path)
-    for overlap in overlaps(movers, pairs):
-        room = NOISE * min(scene.solids[overlap.first].volume, scene.solids[overlap.second].volume)
-        if overlap.volume > room:
-            first = min(first, overlap.pose)
-    return first / len(path)

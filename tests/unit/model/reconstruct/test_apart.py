@@ -10,6 +10,7 @@ from artgen.geometry.clearance import Mover, overlaps, shape_of_solids
 from artgen.geometry.solid import Solid, slab
 from artgen.validate.sweep import sweep_poses, sweeps
 from model.reconstruct.apart import Cutter, apart_at_rest, clear_ways
+from model.reconstruct.freedom import free_share
 from model.reconstruct.scene import Scene
 from tests.unit.model.reconstruct.perfect import open_box
 from tests.unit.model.reconstruct.scenes import stated
@@ -114,3 +115,34 @@ def test_what_carries_a_part_gives_way_to_it() -> None:
     assert scene.solids["knob"].volume == knob.volume
     assert scene.joint("knob_joint").limit == Limit(lower=0.0, upper=1.5)
     assert shared(scene) <= 1e-9
+
+
+def door_and_drawer(hinge_at: float) -> Scene:
+    """A door before the left two thirds of a shell, and a drawer behind its right half and beyond,
+    whose front stands in the door: across y a plane takes less than across x."""
+    door = slab((-0.28, -0.27, 0.05), (0.1, -0.245, 0.35))
+    drawer = slab((-0.05, -0.262, 0.1), (0.28, 0.1, 0.3))
+    solids = {"base": SHELL, "door": door, "drawer": drawer}
+    joints = hinge("door", (hinge_at, -0.27, 0.0), 1.6), slide("drawer", 0.3)
+    if hinge_at > 0.0:
+        joints = stated("door", "revolute", axis=(0.0, 0.0, 1.0), origin=(hinge_at, -0.27, 0.0),
+                        upper=1.6), joints[1]  # fmt: skip
+    return Scene(solids=solids, joints=joints)
+
+
+def test_a_drawer_behind_a_door_that_opens_away_from_it_stays_behind() -> None:
+    """Hinged at its left edge the door clears the drawer's way."""
+    found = apart_at_rest(door_and_drawer(-0.28), Cutter(CLEARANCE))
+    assert any("a plane across y parts them" in change for change in found.changes)
+    assert abs(found.solids["door"].volume / (0.38 * 0.025 * 0.3) - 1.0) <= 0.5
+
+
+def test_a_drawer_whose_door_opens_across_its_way_is_put_beside_it() -> None:
+    """Hinged at its right edge the wide open door stands before the drawer still, so that a plane
+    across y, which takes less, would leave no way out; both keep one across x."""
+    found = apart_at_rest(door_and_drawer(0.1), Cutter(CLEARANCE))
+    assert any("a plane across x parts them" in change for change in found.changes)
+    assert any("no way out" in change for change in found.changes)
+    assert found.solids["door"].bounds[1, 0] < found.solids["drawer"].bounds[0, 0]
+    assert free_share(found, "drawer_joint", against=["door"]) == 1.0
+    assert free_share(found, "door_joint", against=["drawer"]) == 1.0

@@ -3,7 +3,8 @@
 import math
 
 from artgen.geometry.solid import slab
-from model.reconstruct.rescue import free_share, unblocked
+from model.reconstruct.freedom import free_share
+from model.reconstruct.rescue import unblocked
 from tests.unit.model.reconstruct.scenes import scene_of, stated
 
 BASE = slab((-0.2, -0.15, 0.0), (0.2, 0.15, 0.02))
