@@ -12,9 +12,9 @@ from artgen.core.errors import UsageError
 from artgen.core.jsonio import write_json
 from artgen.dataset.listing import BUNDLES, sample_path
 from artgen.export.layout import MANIFEST
+from artgen.export.places import bundles_below, is_run
 from artgen.run_folder import RunFolder, locked, opened
 
-RUN = "run.json"
 SAFE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 """Asset ids and categories become names of files and keys of WebDataset, which end at a dot."""
 
@@ -33,11 +33,6 @@ class Found:
         return sample_path(self.asset_id, self.category)
 
 
-def is_run(folder: Path) -> bool:
-    """True for a folder that `artgen generate` fills."""
-    return (folder / RUN).is_file() or any((folder / "assets").glob(f"*/*/{MANIFEST}"))
-
-
 def found_bundles(folder: Path) -> list[Found]:
     """Every bundle in `folder`: those under assets/ of runs, any others at any depth; sorted.
 
@@ -49,21 +44,13 @@ def found_bundles(folder: Path) -> list[Found]:
             f"{folder}: no such folder; name a run of `artgen generate`, a folder of bundles or a "
             "bundle"
         )
-    places = []
-    for place, folders, files in os.walk(folder):
-        here = Path(place)
-        if MANIFEST in files:
-            places.append(here)
-            folders.clear()
-        elif RUN in files or (here == folder and is_run(folder)):
-            folders[:] = [name for name in folders if name == "assets"]
-        folders[:] = [n for n in folders if not (n.startswith(".") or n.endswith(".partial"))]
+    places = bundles_below(folder)
     if not places:
         raise UsageError(
             f"{folder}: holds no bundle, that is no folder with a {MANIFEST}; make some with "
             f"`artgen generate --out {folder}`"
         )
-    return [_identified(place) for place in sorted(places)]
+    return [_identified(place) for place in places]
 
 
 def _identified(folder: Path) -> Found:

@@ -14,6 +14,7 @@ from artgen.assembly.harvest import (
     bundle_source,
     embedded,
     made_source,
+    refuse_assembled,
 )
 from artgen.assembly.library import seal_library
 from artgen.assembly.source import Source
@@ -99,7 +100,7 @@ def build_library(
         raise UsageError(f"{folder}: no source could be taken in: {taken[0].fault}")
     recipe = {
         "made": [plain(one) for one in made],
-        "bundles": sorted({file_hash(bundle / MANIFEST) for bundle in bundles}),
+        "bundles": sorted({file_hash(task.bundle / MANIFEST) for task in found if task.bundle}),
         "sharp": sharp,
     }
     digest = seal_library(folder, ids, recipe=recipe)
@@ -135,6 +136,7 @@ def _bundle_tasks(folder: Path, bundles: Sequence[Path]) -> tuple[list[SourceTas
     faults = []
     for bundle in bundles:
         try:
+            refuse_assembled(bundle)
             id = bundle_id(bundle)
         except ArtgenError as error:
             faults.append(Taken(task=str(bundle), fault=str(error)))

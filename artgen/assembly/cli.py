@@ -12,13 +12,14 @@ import tyro
 from rich.console import Console
 from rich.table import Table
 
-from artgen.assembly.build import build_library, embedded_library
-from artgen.assembly.harvest import bundle_folders, embedded, is_assembled
+from artgen.assembly.build import Taken, build_library, embedded_library
+from artgen.assembly.harvest import bundle_folders, embedded
 from artgen.assembly.library import Library
 from artgen.assembly.run import (
     TEMPLATES,
     AssembleTask,
     check_kept,
+    opened_market,
     run_tasks,
     set_twins_aside,
 )
@@ -29,6 +30,8 @@ from artgen.run_folder import RunFolder, opened, run_log
 from artgen.system_libraries import check_libraries
 
 BYTES_PER_OBJECT = 4_000_000
+TOLD = 20
+"""Bundles left out of a library that are named."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +44,8 @@ class LibraryBuild:
     """
 
     bundles: tyro.conf.Positional[tuple[Path, ...]] = ()
-    """Bundles, or folders that hold some at any depth."""
+    """Bundles, or folders that hold some at any depth; of runs what passed, not what lies in
+    failed/. Assembled ones are left out: take in what they are made from."""
     embedded: bool = True
     """Also take in the embedded library, made by artgen's own generators."""
     sharp: bool = False
@@ -53,7 +57,8 @@ class LibraryBuild:
 
 
 def library(argv: Sequence[str]) -> int:
-    """Collect doors, drawers, handles and bodies into a library of donors."""
+    """Collect doors, drawers, handles and bodies into a library of donors: 0 all taken in, 1 some
+    left out."""
     words = list(argv)
     if words[:1] != ["build"]:
         helped = words[:1] in (["-h"], ["--help"])
@@ -63,7 +68,7 @@ def library(argv: Sequence[str]) -> int:
     command = tyro.cli(LibraryBuild, args=words[1:], prog="artgen library build")
     if not command.sharp and command.embedded:
         check_libraries()
-    bundles = [b for b in bundle_folders(command.bundles) if not is_assembled(b)]
+    bundles = bundle_folders(command.bundles)
     made = embedded() if command.embedded else []
     if not made and not bundles:
         raise UsageError("nothing to take in: name bundles, or leave out --no-embedded")
@@ -76,10 +81,17 @@ def library(argv: Sequence[str]) -> int:
         sharp=command.sharp,
     )
     tell_library(Library(command.out), Console())
-    for fault in faults:
-        Console().print(f"left out {fault.task}: {fault.fault}", highlight=False)
+    tell_left_out(faults, Console())
     Console().print(f"library {command.out}, digest {digest[:12]}", highlight=False)
-    return 0
+    return int(bool(faults))
+
+
+def tell_left_out(faults: Sequence[Taken], console: Console) -> None:
+    """A line for each source that is not in the library, up to a number."""
+    for fault in faults[:TOLD]:
+        console.print(f"left out {fault.task}: {fault.fault}", highlight=False, markup=False)
+    if (more := len(faults) - TOLD) > 0:
+        console.print(f"left out {more} more", highlight=False)
 
 
 def tell_library(found: Library, console: Console) -> None:
@@ -141,6 +153,7 @@ def assemble(argv: Sequence[str]) -> int:
         place = command.library or embedded_library(
             folder.work, workers=command.workers, show=progress
         )
+        tell_terms(opened_market(place, command.what).library, Console())
         tasks = [
             AssembleTask(what=command.what, index=k, seed=command.seed, library=place)
             for k in range(command.count)
@@ -172,6 +185,18 @@ def make_objects(
     for twin in set_twins_aside(folder, tasks):
         outcomes[twin.asset_id] = twin
     return [outcomes[task.asset_id] for task in tasks]
+
+
+def tell_terms(library: Library, console: Console) -> None:
+    """Which of a library's sources may not be handed on, with what is made from them."""
+    bound = {e.source: e.licence for e in library.entries if not e.distributable}
+    if bound:
+        licences = ", ".join(sorted(set(bound.values())))
+        console.print(
+            f"{len(bound)} sources of the library may not be handed on ({licences}), nor may what "
+            "is made from them; their manifests say so, and artgen shard --public refuses them",
+            highlight=False,
+        )
 
 
 def tell_outcomes(folder: RunFolder, outcomes: Sequence[Outcome]) -> None:

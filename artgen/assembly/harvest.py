@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,8 +15,8 @@ from artgen.core.jsonio import file_hash
 from artgen.core.licence import licence_of
 from artgen.core.stream import Stream
 from artgen.dataset.split import OURS, families_of
-from artgen.export import read_bundle
 from artgen.export.layout import MANIFEST
+from artgen.export.places import bundles_below
 from artgen.finish import Rounder
 from artgen.generators import load_builder
 from artgen.rules import load_rule, sample
@@ -86,9 +86,8 @@ def bundle_source(folder: Path) -> Source:
         ExportError: it is damaged.
         UsageError: it is itself made of others' parts, which are of several families.
     """
+    refuse_assembled(folder)
     obj = finished_object(folder)
-    if obj.provenance.get("donors"):
-        raise UsageError(f"{folder}: is made of others' parts; take those objects in instead")
     families = families_of(obj.provenance)
     return source_of_object(
         obj,
@@ -106,6 +105,16 @@ def bundle_id(folder: Path) -> str:
     Raises:
         ExportError: its manifest cannot be read.
     """
+    called = re.sub(r"[^A-Za-z0-9_.-]+", "_", "_".join(_origin(read_manifest(folder))))
+    return f"{called[:LONGEST]}_{file_hash(folder / MANIFEST)[:DIGITS]}"
+
+
+def read_manifest(folder: Path) -> Mapping[str, Any]:
+    """What a bundle's manifest states, whatever its schema.
+
+    Raises:
+        ExportError: it cannot be read.
+    """
     path = folder / MANIFEST
     try:
         manifest = json.loads(path.read_text(encoding="utf-8"))
@@ -113,8 +122,7 @@ def bundle_id(folder: Path) -> str:
         raise ExportError(f"{path}: cannot be read ({error}); make the bundle again") from error
     if not isinstance(manifest, Mapping):
         raise ExportError(f"{path}: holds no JSON object; make the bundle again")
-    called = re.sub(r"[^A-Za-z0-9_.-]+", "_", "_".join(_origin(manifest)))
-    return f"{called[:LONGEST]}_{file_hash(path)[:DIGITS]}"
+    return manifest
 
 
 def _origin(manifest: Mapping[str, Any]) -> tuple[str, str]:
@@ -125,19 +133,25 @@ def _origin(manifest: Mapping[str, Any]) -> tuple[str, str]:
     return str(origin.get("dataset", OURS)), str(own)
 
 
-def bundle_folders(places: Sequence[Path]) -> Iterator[Path]:
-    """Folders of bundles at or below some places, sorted.
+def bundle_folders(places: Sequence[Path]) -> list[Path]:
+    """Folders of bundles at or below some places, each once, in order; of runs those that passed.
 
     Raises:
         UsageError: a place does not exist or holds none.
     """
+    found: dict[Path, None] = {}
     for place in places:
-        found = sorted(path.parent for path in place.rglob(MANIFEST)) if place.is_dir() else []
-        if not found:
-            raise UsageError(f"{place}: holds no bundle; make some with generate or ingest")
-        yield from found
+        below = bundles_below(place)
+        if not below:
+            raise UsageError(
+                f"{place}: holds no bundle that passed; make some with generate or ingest"
+            )
+        found |= dict.fromkeys(below)
+    return list(found)
 
 
-def is_assembled(folder: Path) -> bool:
-    """Whether a bundle is itself made of others' parts; such are no sources."""
-    return bool(read_bundle(folder).manifest.get("donors"))
+def refuse_assembled(folder: Path) -> None:
+    """Raise UsageError if a bundle is itself made of others' parts, which are of several
+    families."""
+    if read_manifest(folder).get("donors"):
+        raise UsageError(f"{folder}: is made of others' parts; take those objects in instead")

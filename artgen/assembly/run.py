@@ -6,11 +6,12 @@ import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from artgen import __version__
 from artgen.assembly.assemble import Assembled, GivenUp, assembled, finished
 from artgen.assembly.choice import Market
-from artgen.assembly.library import Library
+from artgen.assembly.library import MOST_PARTS, Library
 from artgen.core.errors import ArtgenError, UsageError
 from artgen.core.jsonio import write_json
 from artgen.core.stream import Stream
@@ -53,12 +54,31 @@ def new_object(market: Market, what: str, seed: int, index: int) -> Assembled | 
     return assembled(market, template, Stream(seed, what, "object", index))
 
 
+def opened_market(library: Path, what: str) -> Market:
+    """What a library offers for some kind of object.
+
+    Raises:
+        UsageError: it cannot be read, or nothing can be assembled from it.
+    """
+    market = Market(Library(library), TEMPLATES[what])
+    if not market.template_ids:
+        held = len({entry.source for entry in market.library.entries})
+        among = len(market.library.templates(TEMPLATES[what]))
+        raise UsageError(
+            f"{library}: nothing can be made from its {held} sources: {among} of them can be a "
+            f"template ({' or '.join(TEMPLATES[what])}, at most {MOST_PARTS} parts, with a front "
+            "that opens), and none finds donors of its split for more than half of its fronts; "
+            "take in more bundles, or build it without --no-embedded"
+        )
+    return market
+
+
 class Bench:
     """What a process keeps between objects."""
 
     def __init__(self, folder: RunFolder, library: Path, what: str) -> None:
         self.tools = Toolbox(folder, f"assemble-{os.getpid()}")
-        self.market = Market(Library(library), TEMPLATES[what])
+        self.market = opened_market(library, what)
 
 
 def make_object(task: AssembleTask, bench: Bench) -> Outcome:
@@ -102,7 +122,7 @@ def check_kept(folder: RunFolder, tasks: Sequence[AssembleTask], digest: str) ->
         manifest = task.place(folder.assets) / "manifest.json"
         if not manifest.exists():
             continue
-        found = json.loads(manifest.read_text(encoding="utf-8"))
+        found = _stated(manifest)
         expected = {"seed": task.seed, "library": digest, "artgen": __version__}
         actual = {key: found.get(key) for key in ("seed", "library")}
         actual["artgen"] = found.get("versions", {}).get("artgen")
@@ -115,6 +135,21 @@ def check_kept(folder: RunFolder, tasks: Sequence[AssembleTask], digest: str) ->
     return kept
 
 
+def _stated(manifest: Path) -> Mapping[str, Any]:
+    """What a manifest of this run says.
+
+    Raises:
+        UsageError: it is damaged.
+    """
+    try:
+        found = json.loads(manifest.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise UsageError(
+            f"{manifest}: cannot be read ({error}); remove its folder and run again to make it anew"
+        ) from error
+    return found if isinstance(found, Mapping) else {}
+
+
 def set_twins_aside(folder: RunFolder, tasks: Sequence[AssembleTask]) -> list[Outcome]:
     """Of objects with equal tree, shapes and looks the first stays; the others go to failed/."""
     first: dict[str, str] = {}
@@ -123,8 +158,8 @@ def set_twins_aside(folder: RunFolder, tasks: Sequence[AssembleTask]) -> list[Ou
         home = task.place(folder.assets)
         if not (home / "manifest.json").exists():
             continue
-        manifest = json.loads((home / "manifest.json").read_text(encoding="utf-8"))
-        twin = first.setdefault(manifest["hashes"]["object"], task.asset_id)
+        digest = _stated(home / "manifest.json").get("hashes", {}).get("object", task.asset_id)
+        twin = first.setdefault(digest, task.asset_id)
         if twin != task.asset_id:
             shutil.rmtree(home)
             outcomes.append(_set_aside(task, folder, f"is the same object as {twin}"))

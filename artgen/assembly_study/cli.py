@@ -8,9 +8,7 @@ from pathlib import Path
 import tyro
 
 from artgen.assembly.build import embedded_library
-from artgen.assembly.choice import Market
-from artgen.assembly.library import Library
-from artgen.assembly.run import TEMPLATES
+from artgen.assembly.run import opened_market
 from artgen.assembly_study.chunks import read_chunk, save_chunk
 from artgen.assembly_study.page import page
 from artgen.assembly_study.plots import write_histograms
@@ -58,7 +56,7 @@ def study(argv: Sequence[str]) -> int:
     place = command.library or embedded_library(
         command.kept, workers=command.workers, show=progress
     )
-    market = Market(Library(place), TEMPLATES[WHAT])
+    market = opened_market(place, WHAT)
     chunks = all_chunks(command, place, market.library.digest)
     rows = [row for chunk in chunks for row in chunk.rows]
     if not any(row.accepted for row in rows):

@@ -18,6 +18,7 @@ from artgen.core.licence import licence_of
 from artgen.export.glb_content import read_glb
 from artgen.export.layout import GLB, MANIFEST
 from artgen.export.partnet.write import NOTE, write_partnet
+from artgen.export.places import bundles_below
 from artgen.ingest.cli import dispatched
 from artgen.progress import progress
 
@@ -39,7 +40,7 @@ class ExportPartnet:
     """
 
     paths: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
-    """Bundles, or folders that hold some."""
+    """Bundles, or folders that hold some; of runs what passed, not what lies in failed/."""
     out: Path = Path("out/partnet")
     """Receives one folder an object, named by its asset id; none that is there is written over.
     Bundles of one id that differ are told apart: cabinet_000000, cabinet_000000_2."""
@@ -83,7 +84,7 @@ def found_bundles(paths: Sequence[Path]) -> list[Path]:
         raise UsageError("artgen export partnet needs a bundle, for example out/assets")
     found: dict[Path, None] = {}
     for path in paths:
-        own = [entry.parent for entry in sorted(path.rglob(MANIFEST))]
+        own = bundles_below(path)
         if not own:
             raise UsageError(f"{path} holds no {MANIFEST}; name a bundle or a folder of some")
         found |= dict.fromkeys(own)

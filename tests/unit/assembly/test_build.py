@@ -9,7 +9,7 @@ import pytest
 from artgen.assembly import build, harvest
 from artgen.assembly.build import build_library, claim
 from artgen.assembly.cli import assemble, library
-from artgen.assembly.harvest import bundle_id, embedded
+from artgen.assembly.harvest import Made, bundle_folders, bundle_id, embedded
 from artgen.assembly.library import Library
 from artgen.core.errors import ExportError, UsageError
 from artgen.dataset.split import families_of, split_of
@@ -135,11 +135,40 @@ def test_a_library_and_the_catalog_give_an_ingested_bundle_one_split(tmp_path, m
     assert any(found != by_id for found, by_id in splits)
 
 
-def test_a_bundle_made_of_others_parts_is_no_source(tmp_path, monkeypatch):
-    obj = replace(finished("cabinet", 0), provenance={"donors": ["a", "b"]})
-    monkeypatch.setattr(harvest, "finished_object", lambda folder: obj)
+def test_a_bundle_made_of_others_parts_is_no_source(tmp_path):
+    (tmp_path / "manifest.json").write_text('{"donors": ["a", "b"]}')
     with pytest.raises(UsageError, match="others' parts"):
         harvest.bundle_source(tmp_path)
+
+
+def stated(folder, text):
+    folder.mkdir(parents=True)
+    (folder / "manifest.json").write_text(text)
+    return folder
+
+
+def test_one_damaged_bundle_costs_itself_alone_and_assembled_ones_are_told(tmp_path, capsys):
+    """One ended the whole build; the other was left out in silence."""
+    damaged = stated(tmp_path / "in/a", "{")
+    assembled = stated(tmp_path / "in/b", '{"donors": ["x", "y"]}')
+    bundles = bundle_folders([tmp_path / "in", tmp_path / "in/a"])
+    made = [Made(category="safe", index=0)]
+    home = tmp_path / "library"
+    _, faults = build_library(home, made=made, bundles=bundles, workers=1, show=silent, sharp=True)
+    assert [fault.task for fault in faults] == [str(damaged), str(assembled)]
+    assert "cannot be read" in faults[0].fault
+    assert "others' parts" in faults[1].fault
+    assert {e.source for e in Library(home).entries} == {"safe_6_000000"}
+
+
+def test_what_a_run_has_set_aside_is_no_source_unless_it_is_named(tmp_path):
+    """`artgen library build out/ingested` took in what ingest had found to be of no use."""
+    passed = stated(tmp_path / "run/assets/chair/pm_1", "{}")
+    failed = stated(tmp_path / "run/failed/chair/pm_2", "{}")
+    stated(tmp_path / "run/work/staged/pm_3", "{}")
+    (tmp_path / "run/run.json").write_text("{}")
+    assert bundle_folders([tmp_path / "run"]) == bundle_folders([tmp_path]) == [passed]
+    assert bundle_folders([tmp_path / "run/failed"]) == [failed]
 
 
 @pytest.mark.parametrize(

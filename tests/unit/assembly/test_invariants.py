@@ -13,7 +13,7 @@ from artgen.articulation.types import Limit
 from artgen.assembly import invariants
 from artgen.assembly.invariants import broken
 from artgen.assembly_study.rows import left_as_it_was
-from artgen.core.licence import KNOWN
+from artgen.core.licence import PARTNET
 from artgen.dataset.split import split_of
 from tests.unit.assembly.mutations import (
     has,
@@ -25,8 +25,6 @@ from tests.unit.assembly.mutations import (
     with_new,
     with_piece,
 )
-
-PARTNET = KNOWN["LicenseRef-PartNet-Mobility"]
 
 
 def numbers(found):

@@ -8,9 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 from artgen.assembly.assemble import Assembled, GivenUp, assembled, finished
+from artgen.assembly.build import sharp
 from artgen.assembly.choice import Market
+from artgen.assembly.cli import tell_terms
+from artgen.assembly.harvest import Made, made_source
 from artgen.assembly.library import Library, write_library
 from artgen.assembly.looks import stuff_of
 from artgen.assembly.run import (
@@ -19,10 +23,12 @@ from artgen.assembly.run import (
     check_kept,
     make_object,
     new_object,
+    opened_market,
     set_twins_aside,
 )
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import write_json
+from artgen.core.licence import PARTNET
 from artgen.core.stream import Stream
 from artgen.export.manifest import versions
 from artgen.run_folder import RunFolder
@@ -215,3 +221,33 @@ def test_a_run_goes_on_where_it_stopped_but_not_with_another_library(tmp_path):
         check_kept(folder, [task(0)], "e")
     with pytest.raises(UsageError, match="another seed"):
         check_kept(folder, [replace(task(0), seed=2)], "d")
+
+
+@pytest.mark.parametrize("category", ["safe", "cabinet"])
+def test_a_library_from_which_nothing_can_be_made_says_so(tmp_path, category):
+    """A safe is no template, and one cabinet alone has no donors: each object of a run was an
+    internal fault, a division by zero."""
+    write_library(tmp_path, [made_source(Made(category=category, index=0), sharp)], recipe={})
+    with pytest.raises(UsageError, match="nothing can be made from its 1 sources"):
+        opened_market(tmp_path, WHAT)
+
+
+def test_a_damaged_manifest_of_an_earlier_run_is_told(tmp_path):
+    folder = RunFolder(tmp_path)
+    stated(folder, 0)
+    (task(0).place(folder.assets) / "manifest.json").write_text("{")
+    with pytest.raises(UsageError, match="remove its folder"):
+        check_kept(folder, [task(0)], "d")
+    with pytest.raises(UsageError, match="remove its folder"):
+        set_twins_aside(folder, [task(0)])
+
+
+def test_who_assembles_from_bound_sources_is_told(tmp_path, made_sources, library, capsys):
+    console = Console(width=400)
+    tell_terms(library, console)
+    assert not capsys.readouterr().out
+    write_library(tmp_path, [replace(made_sources[0], licence=PARTNET)], recipe={})
+    tell_terms(Library(tmp_path), console)
+    assert (
+        f"1 sources of the library may not be handed on ({PARTNET.id})" in capsys.readouterr().out
+    )
