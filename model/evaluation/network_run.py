@@ -168,8 +168,10 @@ def opened(place: Path, split: Split | None, slots: int) -> Source[Any]:
         return SoupSource(read_library(place), split=split, slots=slots)
     if place.is_dir():
         return ShardSource(place, split=split, slots=slots)
+    what = "is neither" if place.exists() else "does not exist; expected"
     raise UsageError(
-        f"{place} is neither a library of objects (artgen train-data) nor a folder of shards"
+        f"{place} {what} a library of objects (of artgen train-data, or library.npz of a training "
+        f"run) {'nor' if place.exists() else 'or'} a folder of shards"
     )
 
 

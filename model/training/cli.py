@@ -1,7 +1,7 @@
 """`artgen train` and `artgen ship`: one dataclass each, which is the option list and the help."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
@@ -23,10 +23,11 @@ class Train:
     """Train the Articulated Reconstruction Transformer on objects made from seeds.
 
     RECIPE says what is learned: debug (one minute on a CPU), static_pretrain (parts at rest, as
-    the paper begins), multiview (V=4, T=2), monocular (V=1, T=2). An interrupted run resumes: the
-    same command again continues behind the newest checkpoint and ends in the same weights. The
-    folder receives config.json, checkpoints, log.jsonl, curves for TensorBoard, rendered pictures,
-    and art.safetensors, the file that `artgen reconstruct` reads.
+    the paper begins), multiview (two states from four sides, of nano from two), monocular (two
+    states from one side each). An interrupted run resumes: the same command again continues behind
+    the newest checkpoint and ends in the same weights. The folder receives config.json,
+    checkpoints, log.jsonl, curves for TensorBoard, rendered pictures, and art.safetensors, the file
+    that `artgen reconstruct` reads. docs/train_art.md says what a run costs and brings.
 
     For example:
 
@@ -88,7 +89,7 @@ def train(argv: Sequence[str]) -> int:
 
 def _train(command: Train, config: Config) -> None:
     # Torch takes seconds to import: --help and wrong settings are told without it.
-    from model.training.material import Material
+    from model.training.material import Material, library_of
     from model.training.session import run_session
 
     material = Material(
@@ -99,7 +100,7 @@ def _train(command: Train, config: Config) -> None:
         scenes=command.scenes,
         shard_share=command.shard_share,
     )
-    run_session(
+    network = run_session(
         config,
         material,
         command.out or Path("out/train") / f"{command.recipe}_{command.size}",
@@ -108,6 +109,23 @@ def _train(command: Train, config: Config) -> None:
         plan=command.plan,
         environment=os.environ,
     )
+    if os.environ.get("RANK", "0") == "0":
+        objects = library_of(material, network.parent) or command.shards[0]
+        Console(soft_wrap=True).print(
+            *last_words(network, config, objects), sep="\n", markup=False, highlight=False
+        )
+
+
+def last_words(network: Path, config: Config, objects: Path) -> Iterator[str]:
+    """Where the result of a run lies and what it is for, a line each.
+
+    Args:
+        objects: library or shards that it learned from, whose held-out objects can judge it.
+    """
+    yield f"network: {network}, after update {config.train.steps:,}"
+    yield f"curves: tensorboard --logdir {network.parent}"
+    yield f"score it: artgen evaluate {network} --truth {objects}"
+    yield f"use it: artgen reconstruct IMAGES --checkpoint {network}"
 
 
 @dataclass(frozen=True, kw_only=True)

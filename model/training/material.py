@@ -77,7 +77,7 @@ def stated_origin(material: Material, seed: int) -> Mapping[str, object]:
 
 def material_hashes(material: Material, folder: Path) -> dict[str, Any]:
     """What the material holds, by content; the objects of the folder are there by now."""
-    library = _library(material, folder)
+    library = library_of(material, folder)
     return {
         "library": library and fingerprint(library),
         "shards": [fingerprint(path, material.split) for path in material.shards],
@@ -86,7 +86,7 @@ def material_hashes(material: Material, folder: Path) -> dict[str, Any]:
 
 def make_missing(material: Material, folder: Path, data: DataConfig, *, show: Show) -> None:
     """Make the objects that are to be made from seeds, unless the folder has them."""
-    path = _library(material, folder)
+    path = library_of(material, folder)
     if path is not None and material.library is None and not path.exists():
         make_library(path, material.request(data.seed), workers=WORKERS, show=show)
 
@@ -103,7 +103,7 @@ def opened(material: Material, folder: Path, data: DataConfig) -> Source[Any]:
         ShardError: a shard is damaged.
     """
     split, slots = material.split, data.slots
-    path = _library(material, folder)
+    path = library_of(material, folder)
     shards: list[Source[Any]] = [
         _shown(
             ShardSource(one, split=split, slots=slots), material.scenes, folder / SCENES / f"{k}"
@@ -132,8 +132,8 @@ def _shown(source: Source[Any], scenes: int | None, folder: Path) -> Source[Any]
     return source if scenes is None else Kept(source, scenes, folder)
 
 
-def _library(material: Material, folder: Path) -> Path | None:
-    """Given, to be made, or None where shards alone are learned from."""
+def library_of(material: Material, folder: Path) -> Path | None:
+    """The file of objects: given, to be made, or None where shards alone are learned from."""
     if material.library is not None:
         return material.library
     return folder / "library.npz" if material.categories or not material.shards else None

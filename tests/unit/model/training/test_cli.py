@@ -13,6 +13,7 @@ from model.training.art_file import ModelCard, carded, load_art, save_art, store
 from model.training.cli import ship, train
 from model.training.recipes import debug
 from model.training.settings import changed
+from tests.unit.model.tiny_session import laptop_material
 
 SMALL = (
     *("model.images.image_px=16", "model.images.encoder=none", "model.trunk.width=24"),
@@ -47,6 +48,21 @@ def test_help_teaches(capsys: pytest.CaptureFixture[str]) -> None:
 def test_no_object_is_refused() -> None:
     with pytest.raises(UsageError, match="--objects 0"):
         train(["debug", "--objects", "0"])
+
+
+def test_a_run_says_what_it_left_and_what_to_do_with_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    library = laptop_material(tmp_path).library
+    told = ("--library", str(library), "--device", "cpu", "--out", str(tmp_path / "run"))
+    small = (*SMALL, "data.slots=4", "data.batch=1", "data.rays=8", "train.steps=1")
+    for _ in range(2):  # A run that is done says the same again.
+        assert train(["debug", *told, "--set", *small]) == 0
+        said = capsys.readouterr().out
+        network = tmp_path / "run/art.safetensors"
+        assert f"network: {network}, after update 1" in said
+        assert f"artgen evaluate {network} --truth {library}" in said
+        assert f"artgen reconstruct IMAGES --checkpoint {network}" in said
 
 
 def test_a_card_is_shown_and_shipped_with_metrics(
