@@ -1,15 +1,19 @@
 """The objects of a study, parted once: nested sets to learn from, and one set to be judged on."""
 
+import json
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from artgen.core.errors import UsageError
+from artgen.core.jsonio import file_hash, write_json
 from artgen.core.stream import Stream
 from artgen.dataset.split import Split, split_of
 from model.data.library import Library, read_library, taken, write_library
 
 HELD_OUT = "held_out.npz"
+ORIGIN = "objects.json"
+"""What the sets were taken from, and how many are judged on."""
 
 
 def training_path(folder: Path, count: int) -> Path:
@@ -36,8 +40,10 @@ def write_objects(
         at_most: whether fewer will do where the library has no more.
 
     Raises:
-        UsageError: the library has too few objects.
+        UsageError: the library has too few objects, or the folder holds those of another library,
+            or another number of held-out ones.
     """
+    _check_origin(library, folder, held_out=held_out, slots=slots)
     wanted: list[tuple[Path, Split, int]] = [
         (training_path(folder, count), "train", count) for count in counts
     ]
@@ -55,6 +61,26 @@ def write_objects(
                 "for fewer"
             )
         write_library(path, taken(whole, ranked[:count]))
+    write_json(folder / ORIGIN, _origin(library, held_out, slots))
+
+
+def _origin(library: Path, held_out: int, slots: int) -> Mapping[str, object]:
+    """A library that is gone is taken for the one that was there."""
+    known = {"library": file_hash(library)} if library.exists() else {}
+    return {**known, "held_out": held_out, "slots": slots}
+
+
+def _check_origin(library: Path, folder: Path, *, held_out: int, slots: int) -> None:
+    path = folder / ORIGIN
+    if not path.exists():
+        return
+    found, ours = json.loads(path.read_text(encoding="utf-8")), _origin(library, held_out, slots)
+    for key in sorted(set(found) & set(ours)):
+        if found[key] != ours[key]:
+            raise UsageError(
+                f"{folder}: its objects were taken with {key} {found[key]}, now it is {ours[key]}; "
+                "runs on other objects do not compare: give the same ones, or choose another --out"
+            )
 
 
 def ranked_positions(library: Library, split: Split, slots: int) -> list[int]:

@@ -17,8 +17,12 @@ means over the same {held_out} held-out objects; where there are several seeds, 
 with the least and the greatest in brackets.
 
 Runs: `{kind}`, size `{size}`, {steps} updates of {batch} objects each, {seeds} seeds, sets of
-{counts} objects; {done} of {cells} runs are done.
+{counts} objects; {done} of {cells} runs are done. {scenes}
 """
+SAME_SCENES = """Every object is seen in {scenes} scenes that come again, so more objects are more
+scenes as well, in proportion: the curve does not tell one from the other."""
+NEW_SCENES = """Scenes are drawn anew each time, so all runs see as many of them: the curve is
+that of objects alone."""
 UPDATES = """The same runs on {most} objects, judged on the way. Their learning rate falls on one
 cosine over all {steps} updates, so that points on the way lie below what a run of that length would
 reach.
@@ -49,7 +53,9 @@ class CurveRow:
 def page(rows: Sequence[CurveRow], command: Scaling, *, cells: int, pictures: Sequence[str]) -> str:
     """The page."""
     done = {(row.x, row.seed) for row in rows if (row.axis, row.series) == ("objects", "network")}
+    seen = NEW_SCENES if command.scenes is None else SAME_SCENES
     head = HEAD.format(
+        scenes=seen.format(scenes=command.scenes),
         held_out=command.held_out,
         kind=command.kind,
         size=command.size,

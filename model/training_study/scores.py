@@ -14,7 +14,9 @@ import torch
 
 from artgen.core.errors import ArtgenError
 from artgen.core.jsonio import content_hash, file_hash, plain, write_json
+from artgen.dataset.split import Split
 from artgen.progress import progress
+from model.data.fingerprint import fingerprint
 from model.evaluation.held_out import HeldOut, held_out
 from model.evaluation.metrics import METRICS
 from model.evaluation.network_run import NetworkRun, made_predictor, opened
@@ -104,10 +106,15 @@ def values_of(predictor: Predictor, item: HeldOut, *, mask_pixels: int) -> Value
 
 
 def _key(asked: NetworkRun, mask_pixels: int) -> str:
-    """What a score depends on; folders of shards are told apart by their paths alone."""
-    places = {name: getattr(asked, name) for name in ("predictions", "truth", "train")}
-    hashes = {
-        name: file_hash(Path(own)) if own is not None and Path(own).is_file() else str(own)
-        for name, own in places.items()
-    }
+    """What a score depends on."""
+    splits = {"predictions": None, "truth": asked.split, "train": "train"}
+    hashes = {name: _content(getattr(asked, name), split) for name, split in splits.items()}
     return content_hash([SCHEMA, {**plain(asked), **hashes}, mask_pixels])
+
+
+def _content(place: Path | str | None, split: Split | None) -> str:
+    """A hash of what is there; the word itself where nothing is, as for a baseline."""
+    if place is None or not Path(place).exists():
+        return str(place)
+    path = Path(place)
+    return file_hash(path) if path.is_file() else fingerprint(path, split)

@@ -10,6 +10,7 @@ from artgen.core.stream import Stream
 from artgen.dataset.split import Split
 from artgen.progress import progress
 from artgen.studies.table import write_table
+from model.data.fingerprint import fingerprint
 from model.data.library import read_library, taken, write_library
 from model.data.make import Request, make_library
 from model.data.shards import ShardSource
@@ -88,7 +89,7 @@ def conditions_of(command: Shift, *, slots: int) -> list[Condition]:
         found.append(replace(noisy, against=USUAL))
     for name, folder in shard_folders(command).items():
         same = f"{USUAL} of {name}"
-        truth = objects / f"of_{name}.npz"
+        truth = objects / f"of_{name}_{fingerprint(folder, 'test')[:12]}.npz"
         _write_same(command.library, folder, truth, slots=slots)
         found.append(Condition(name=same, truth=truth))
         found.append(Condition(name=name, truth=folder, split="test", against=same))

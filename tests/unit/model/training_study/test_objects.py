@@ -6,7 +6,7 @@ import pytest
 
 from artgen.core.errors import UsageError
 from artgen.dataset.split import split_of
-from model.data.library import read_library
+from model.data.library import read_library, taken, write_library
 from model.training_study.objects import (
     HELD_OUT,
     ranked_positions,
@@ -39,6 +39,21 @@ def test_what_is_there_stays(library: Path, tmp_path: Path) -> None:
     before = (tmp_path / HELD_OUT).stat().st_mtime_ns
     write_objects(tmp_path / "gone.npz", tmp_path, counts=(2,), held_out=1, slots=8)
     assert (tmp_path / HELD_OUT).stat().st_mtime_ns == before
+
+
+def test_objects_of_another_library_or_another_number_are_refused(
+    library: Path, tmp_path: Path
+) -> None:
+    """A study would otherwise be judged on one object and say that there were two."""
+    folder, other = tmp_path / "objects", tmp_path / "other.npz"
+    write_objects(library, folder, counts=(2,), held_out=1, slots=8)
+    write_objects(library, folder, counts=(2, 4), held_out=1, slots=8)
+    with pytest.raises(UsageError, match="held_out 1, now it is 2"):
+        write_objects(library, folder, counts=(2,), held_out=2, slots=8)
+    whole = read_library(library)
+    write_library(other, taken(whole, range(1, len(whole))))
+    with pytest.raises(UsageError, match="library"):
+        write_objects(other, folder, counts=(2,), held_out=1, slots=8)
 
 
 def test_too_few_objects_are_told(library: Path, tmp_path: Path) -> None:
