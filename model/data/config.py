@@ -48,7 +48,8 @@ class DataConfig:
         pose_noise_deg: deviation of a turn about each camera's axes between the poses that are
             true and those that the network is told; rays stay true.
         pose_noise: deviation of a shift along each axis, radii.
-        workers: processes that prepare items; the batches are the same at any number.
+        workers: processes that prepare items, one a core at most; the batches are the same at any
+            number. A GPU waits where there are none.
         part_order: `canonical` is the paper's; `shuffled` gives the movable parts of each object
             slots in an arbitrary order, always the same one: its ablation.
         rest: `closed` counts boxes, axes and motion from all parts closed, as the paper; `first`

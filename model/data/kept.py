@@ -55,24 +55,24 @@ class Kept:
         """Every epoch a permutation of all scenes."""
         return Permutations(len(self), seed=seed)
 
-    def plan(self, position: int, config: DataConfig, stream: Stream) -> int:
-        """The position; what is drawn follows from it."""
-        return position
-
-    def batch(self, planned: Sequence[int], config: DataConfig, device: torch.device) -> Batch:
-        """The scenes, cast when first asked for."""
-        return merged([self._item(position, config) for position in planned]).to(device)
-
-    def _item(self, position: int, config: DataConfig) -> Batch:
+    def plan(self, position: int, config: DataConfig, stream: Stream) -> bytes:
+        """The scene, cast when first asked for: by whoever draws, so that workers do it beside a
+        GPU. Bytes, as tensors between processes take a file handle each."""
         key = f"{_name(config)}/{position}"
-        held = self._cast.get(key)
+        held: bytes | None = self._cast.get(key)
         if held is None:
-            stream = Stream(config.seed, "kept", position)
-            plan = self.source.plan(position % len(self.source), config, stream)
+            own = Stream(config.seed, "kept", position)
+            plan = self.source.plan(position % len(self.source), config, own)
             item = self.source.batch([plan], config, torch.device("cpu"))
             held = to_bytes(item, dict.fromkeys(IMAGES, _byte))
             self._cast.set(key, held)
-        return from_bytes(held, dict.fromkeys(IMAGES, _float))
+        return held
+
+    def batch(self, planned: Sequence[bytes], config: DataConfig, device: torch.device) -> Batch:
+        """The scenes, on the device."""
+        return merged([from_bytes(own, dict.fromkeys(IMAGES, _float)) for own in planned]).to(
+            device
+        )
 
 
 @cache

@@ -1,6 +1,7 @@
 """Batches: from a cursor on, the same at any number of workers and ranks."""
 
 import itertools
+import os
 from collections.abc import Iterator, Sequence
 from typing import Any, TypeVar
 
@@ -47,13 +48,14 @@ def batches(
     where = torch.device(device)
     work = _Work(source, config, rank=rank, world=world, shows=_shown_by_workers(where))
     starts = itertools.count(cursor, config.batch)
+    workers = min(config.workers, os.cpu_count() or 1)
     loader: DataLoader[Any] = DataLoader(
         work,
         sampler=starts,
         batch_size=None,
-        num_workers=config.workers,
+        num_workers=workers,
         collate_fn=_as_is,
-        prefetch_factor=2 if config.workers else None,
+        prefetch_factor=2 if workers else None,
     )
     for made in loader:
         if isinstance(made, ArtgenError):

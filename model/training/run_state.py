@@ -98,12 +98,15 @@ def trained_state(module: nn.Module) -> dict[str, Tensor]:
 def follow(run: Run) -> None:
     """Move the average towards the weights; early on it follows faster."""
     decay = min(run.config.ema_decay, (1.0 + run.step) / (10.0 + run.step))
+    averages, weights = [], []
     for name, tensor in trained_state(run.objective).items():
         average = local(run.average[name])
         if tensor.is_floating_point():
-            average.lerp_(local(tensor), 1.0 - decay)
+            averages.append(average)
+            weights.append(local(tensor))
         else:
             average.copy_(local(tensor))
+    torch._foreach_lerp_(averages, weights, 1.0 - decay)
 
 
 def _names(run: Run) -> dict[Tensor, str]:

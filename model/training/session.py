@@ -44,7 +44,7 @@ from model.training.material import (
 )
 from model.training.objective import Objective
 from model.training.perceptual import FeatureDistance, packaged_distance
-from model.training.picture import picture_of
+from model.training.picture import OBJECTS, picture_of
 from model.training.run_state import Run, begun, differences, resume, trained_state
 from model.training.schedule import Moment
 from model.training.train import Draw, Supply, train
@@ -97,7 +97,7 @@ def run_session(
             run = _begun(art, perceptual, config, team, {**settings, "inputs": inputs})
             resume(run, folder)
             supply = _supply(source, config, team)
-            train(run, supply, folder=folder, show=show, draw=_draw(art, supply, team))
+            train(run, supply, folder=folder, show=show, draw=_draw(art, source, config, team))
             card = _card(source, config, material, run)
             _export(run, art, config, card, folder / RESULT)
             wait_for_all(team)
@@ -175,13 +175,15 @@ def _supply(source: Source[Any], config: Config, team: Team) -> Supply:
     return supply
 
 
-def _draw(art: Art, supply: Supply, team: Team) -> Draw | None:
+def _draw(art: Art, source: Source[Any], config: Config, team: Team) -> Draw | None:
     """How to show the first objects; not where weights are divided among ranks."""
     if art.planes is None or (team.world > 1 and team.plan == "shards"):
         return None
+    few = dataclasses.replace(config.data, batch=min(OBJECTS, config.data.batch), workers=0)
 
     def draw(moment: Moment) -> NDArray[np.uint8]:
-        return picture_of(art, next(supply(moment, 0)), moment)
+        data = dataclasses.replace(few, target_px=moment.target_px)
+        return picture_of(art, next(batches(source, data, device=team.device)), moment)
 
     return draw
 
