@@ -4,7 +4,7 @@ Each gate runs the check itself, so that an open mesh does not keep a simulation
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from artgen.core.errors import ArtgenError
 from artgen.validate import driven, dynamics, models, motion, structure
@@ -26,6 +26,7 @@ class Gates:
         opens: within its effort every joint goes through its whole range, and back.
         clear: no collision pieces of different parts meet at rest or on the way.
         deepest: how far such pieces reach into each other at most, m; 0 where they are clear.
+        joints: how many joints were driven; None where it does not load.
         reasons: gate to what was found against it, or to why it was not asked.
     """
 
@@ -35,6 +36,7 @@ class Gates:
     opens: bool | None
     clear: bool | None
     deepest: float | None = None
+    joints: int | None = None
     reasons: dict[str, str]
 
     @property
@@ -70,8 +72,17 @@ def subject_gates(subject: Subject) -> Gates:
         opens=_held(subject, "opens", (driven.opens, driven.closes), reasons),
         clear=clear,
         deepest=deepest,
+        joints=len(subject.joints),
         reasons=reasons,
     )
+
+
+def held_against(found: Gates, moving: int) -> Gates:
+    """The gates of an object whose truth has `moving` joints: what has none left opens nowhere."""
+    if not (found.loads and moving and found.joints == 0):
+        return found
+    why = f"nothing is left that moves, of {moving} joints"
+    return replace(found, opens=False, reasons={**found.reasons, "opens": why})
 
 
 def _clear(subject: Subject, reasons: dict[str, str]) -> tuple[bool | None, float | None]:

@@ -90,7 +90,7 @@ _IMAGES = {
 }
 _GATES = {
     name: Metric("share", "more", 0.0)
-    for name in ("loads", "stable", "settles", "opens", "clear", "passed")
+    for name in ("loads", "stable", "settles", "opens", "clear", "passed", "kept")
 } | {"deepest": Metric("m", "less")}
 
 MATCHINGS = ("order", "nearest")
@@ -152,5 +152,6 @@ HEADLINES = (
     "masks.nearest.moving",
     "images.psnr",
     "gates.passed",
+    "gates.kept",
 )
 """What tables by category and by part count show."""

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 
 from artgen.core.stream import Stream
-from model.evaluation.gates import Gates
+from model.evaluation.gates import Gates, held_against
 from model.evaluation.images import ImageScores
 from model.evaluation.joints import JointErrors, joint_errors
 from model.evaluation.layout import Layout
@@ -134,8 +134,11 @@ def score(
         for image in own:
             put(found, prefix, asdict(image))
     if gates is not None:
-        held = {key: value for key, value in asdict(gates).items() if key != "reasons"}
-        put(found, "gates", {**held, "passed": gates.passed})
+        moving = int(true.movable.sum())
+        gates = held_against(gates, moving)
+        held = {key: own for key, own in asdict(gates).items() if key not in ("reasons", "joints")}
+        kept = min((gates.joints or 0) / moving, 1.0) if moving else None
+        put(found, "gates", {**held, "passed": gates.passed, "kept": kept})
     return Record(
         name=true.name,
         category=true.category,

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from artgen.validate.subject import Source
-from model.evaluation.gates import Gates, gates
+from model.evaluation.gates import Gates, gates, held_against
 
 
 def drawer(tmp_path: Path, *, joint: str = "", contact: str = "", mass: str = "1") -> Gates:
@@ -29,7 +29,14 @@ def drawer(tmp_path: Path, *, joint: str = "", contact: str = "", mass: str = "1
 def test_a_good_drawer_passes(tmp_path: Path) -> None:
     found = drawer(tmp_path)
     assert found == Gates(
-        loads=True, stable=True, settles=True, opens=True, clear=True, deepest=0.0, reasons={}
+        loads=True,
+        stable=True,
+        settles=True,
+        opens=True,
+        clear=True,
+        deepest=0.0,
+        joints=1,
+        reasons={},
     )
     assert found.passed
 
@@ -77,3 +84,19 @@ def test_a_bundle_of_something_else_fails_and_does_not_raise(tmp_path: Path, tex
     file = tmp_path / "manifest.json"
     file.write_text(text, encoding="utf-8")
     assert not gates(Source(format="bundle", file=file, root=tmp_path)).loads
+
+
+def test_what_has_no_joint_left_does_not_open(tmp_path: Path) -> None:
+    """A block stands for a drawer: it loads, lies still and meets nothing, and is of no use."""
+    block = """<robot name="r"><link name="base"><inertial><mass value="1"/><inertia ixx="0.01"
+      ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial><collision><geometry>
+      <box size="0.5 0.5 0.1"/></geometry></collision></link></robot>"""
+    file = tmp_path / "r.urdf"
+    file.write_text(block, encoding="utf-8")
+    found = gates(Source(format="urdf", file=file, root=tmp_path))
+    assert found.passed
+    assert held_against(found, 0) == found
+    assert not held_against(found, 1).passed
+    assert "1 joints" in held_against(found, 1).reasons["opens"]
+    whole = drawer(tmp_path)
+    assert held_against(whole, 2) == whole

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from artgen.core.jsonio import plain
+from model.evaluation.gates import Gates
 from model.evaluation.images import image_scores
 from model.evaluation.metrics import METRICS
 from model.evaluation.reshape import placed, taken
@@ -145,3 +146,15 @@ def test_confused_slots_make_a_gap() -> None:
     found = summary([score(swapped, truth, QUICK)])
     assert found.gaps["singapo.honest.rs_dgiou"] > 0.5
     assert found.gaps["joints.type_right"] == -1.0
+
+
+def test_joints_that_an_object_kept_are_counted() -> None:
+    """Of two joints one; none is a gate that is not passed, and more are no merit."""
+    truth = cabinet()
+    held = Gates(loads=True, stable=True, settles=True, opens=True, clear=True, reasons={})
+    found = {
+        left: score(truth, truth, QUICK, gates=replace(held, joints=left)).metrics
+        for left in (0, 1, 3)
+    }
+    assert [found[left]["gates.kept"] for left in (0, 1, 3)] == [[0.0], [0.5], [1.0]]
+    assert [found[left]["gates.passed"] for left in (0, 1, 3)] == [[0.0], [1.0], [1.0]]
