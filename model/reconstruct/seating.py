@@ -17,6 +17,8 @@ NEAR = 0.02
 HELD = 1e-3
 """Share of its part's length that a slide keeps on its rails: more than rounding of vertices takes.
 """
+HARDLY = 0.01
+"""Share of its way that a slide may lose without a word, as its part is cut a little."""
 
 
 def seated(scene: Scene) -> Scene:
@@ -63,4 +65,5 @@ def _on_rails(scene: Scene, joint: Joint, bounds: Floats) -> Scene:
         f"{joint.name}'s way of {limit.upper:.3g} m was cut to {ends.upper:.3g}, {HELD:.1%} "
         f"shorter than {joint.child} is"
     )
-    return scene.with_joint(dataclasses.replace(joint, limit=ends)).told(told)
+    cut = scene.with_joint(dataclasses.replace(joint, limit=ends))
+    return cut.told(told) if share < 1.0 - HARDLY else cut

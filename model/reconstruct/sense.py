@@ -40,7 +40,7 @@ def sensible(
             why = f"its surface is ragged ({count} triangles where {budgets[slot]} should do)"
         elif share > (MOST_SHARED_BASE if slot == 0 else MOST_SHARED):
             why = f"{share:.0%} of it lies within other parts"
-        if why:
+        if why and not guesses[slot].boxed:  # It is that box already.
             found[slot] = rounded_box(guesses[slot])
             told.append((slot, f"{why}; a rounded box of the predicted size stands for it"))
     return found, told

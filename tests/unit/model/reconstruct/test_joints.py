@@ -41,6 +41,25 @@ def test_limits_that_are_not_predicted_come_from_the_states() -> None:
         joint(1, "prismatic", axis=(0.0, -1.0, 0.0), upper=0.0, observed=(0.1, 0.3))
     )
     assert (found.lower, found.upper) == (0.0, 0.3)
+    assert any("no limits were predicted" in change for change in found.changes)
+
+
+@pytest.mark.parametrize(("seen", "told"), [(1.5, True), (1.005, False), (0.4, False)])
+def test_a_way_that_is_widened_is_told(seen: float, told: bool) -> None:
+    """A hundredth beyond its end is rounding; half as far again is not."""
+    found = clean_joint(
+        joint(1, "revolute", axis=(0.0, 0.0, 1.0), lower=0.0, upper=1.0, observed=(0.0, seen))
+    )
+    assert found.upper == max(seen, 1.0)
+    assert any("was widened" in change for change in found.changes) == told
+
+
+@pytest.mark.parametrize(("off", "kept"), [(16.0, False), (24.0, False), (26.0, True)])
+def test_slides_are_put_on_an_axis_from_farther_off(off: float, kept: bool) -> None:
+    angle = math.radians(off)
+    axis = (0.0, -math.cos(angle), math.sin(angle))
+    found = clean_joint(joint(1, "prismatic", axis=axis, upper=0.3)).axis
+    assert (abs(found[2]) > 0.1) == kept
 
 
 @pytest.mark.parametrize(("off", "kept"), [(3.0, False), (14.0, False), (16.0, True)])

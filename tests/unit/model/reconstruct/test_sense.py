@@ -1,5 +1,7 @@
 """Shapes that share their space with others, or are shreds, become boxes."""
 
+import dataclasses
+
 import numpy as np
 
 from artgen.geometry.solid import Solid, cylinder, slab
@@ -33,6 +35,15 @@ def test_a_drawer_in_its_cabinet_stays() -> None:
 def test_what_hangs_on_a_part_may_lie_in_it() -> None:
     assert shared(2, SOLIDS, {1: 0, 2: 1}) == 0.0
     assert shared(2, SOLIDS, {1: 0, 2: 0}) > 0.5
+
+
+def test_what_is_a_box_already_is_not_replaced_again() -> None:
+    guesses = {
+        slot: dataclasses.replace(part(slot, solid), boxed=slot > 0)
+        for slot, solid in SOLIDS.items()
+    }
+    budgets = dict.fromkeys(SOLIDS, 10_000)
+    assert sensible(SOLIDS, guesses, budgets, {1: 0, 2: 0}) == (SOLIDS, [])
 
 
 def test_shreds_become_a_box() -> None:
