@@ -29,7 +29,7 @@ from artgen.pool import run_in_processes
 from artgen.progress import Show
 from artgen.run_folder import RunFolder
 
-EDITION = 2
+EDITION = 3
 """Of how sources are taken apart; a new one lets an embedded library on disk be built anew."""
 TIMEOUT_S = 300.0
 """A source takes under a second; a process that hangs for this long is killed."""

@@ -17,13 +17,14 @@ from artgen.assembly.case import Case
 from artgen.assembly.clash import more_open, open_overlaps, template_open
 from artgen.assembly.evenness import density_by_part, density_by_surface
 from artgen.assembly.looks import stuff_of
-from artgen.assembly.piece import Piece, body_volumes
+from artgen.assembly.piece import Piece, body_volumes, joined
 from artgen.assembly.shape_hash import shape_hash, tree_hash
-from artgen.assembly.source import Member
+from artgen.assembly.source import Member, Side
 from artgen.assembly.texels import STRETCH, stretch
 from artgen.assembly.uv_fix import areas
 from artgen.assembly.variation import LEAST_TRAVEL, may_shorten
 from artgen.core.licence import most_restrictive
+from artgen.core.mesh import Floats
 from artgen.core.transform import apply
 from artgen.dataset.split import split_of
 from artgen.geometry.clearance import shape_of_mesh
@@ -55,6 +56,7 @@ UNEVEN = 0.25
 RATIO = (0.8, 1.25)
 """Of the median texel density of a part to that of all parts."""
 STATES = 9
+OUT, UP = np.array([0.0, -1.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,34 +79,60 @@ def tree(case: Case) -> Iterator[Broken]:
         yield Broken(number=1, part="object", value=found, bound=wanted)
 
 
+def finite(case: Case) -> Iterator[Broken]:
+    """10: texture coordinates are numbers; one that is none breaks no bound. (A mesh refuses
+    such vertices.)"""
+    for name, piece in _named(case.new):
+        if not np.isfinite(np.asarray(piece.mesh.uv)).all():
+            yield Broken(number=10, part=name, value="not a number", bound="finite")
+
+
 def boxes(case: Case) -> Iterator[Broken]:
-    """2: the box of every fitted body is that of its slot."""
+    """2: the box of every fitted body is that of its slot, and what the template keeps is as it
+    was."""
+    bound = BOX * case.diagonal + 1e-7
     for member, _, body in case.filled:
         off = float(np.abs(body.bounds - member.body.bounds - case.shift).max())
-        if off > BOX * case.diagonal + 1e-7:
-            yield _broken(2, member, off, f"<= {BOX * case.diagonal:.2g} m")
+        if off > bound:
+            yield _broken(2, member, off, f"<= {bound:.2g} m")
+    kept = {m.name: joined(m.pieces) for m in case.template.members if m.name not in case.new.seams}
+    for name, own in {case.template.base_name: case.template.base, **kept}.items():
+        off = float(np.abs(case.new.piece(name).bounds - own.bounds - case.shift).max())
+        if off > bound:
+            yield Broken(number=2, part=name, value=f"{off:.4g}", bound=f"<= {bound:.2g} m")
+
+
+EDGES: Mapping[Side, tuple[int, int, int]] = {
+    "left": (2, 0, 0),
+    "right": (2, 0, 1),
+    "bottom": (0, 2, 0),
+    "top": (0, 2, 1),
+    "rear": (0, 1, 1),
+}
+"""Where a part is hinged: along which axis, across which, and at which end of its box."""
 
 
 def hinges(case: Case) -> Iterator[Broken]:
-    """3: a hinge lies along the edge that it lay on, and opening moves the front outward."""
+    """3: a hinge lies along the edge that it lay on, and opening moves the front outward, a lid
+    up."""
     for member, joint, body in case.filled:
-        if member.side not in ("left", "right", "bottom", "top"):
+        if member.side not in EDGES:
             continue
-        along, across = (2, 0) if member.side in ("left", "right") else (0, 2)
-        end = 0 if member.side in ("left", "bottom") else 1
+        along, across, end = EDGES[member.side]
         width = float(np.ptp(body.bounds[:, across]))
         off = abs(joint.origin[across] - body.bounds[end, across])
         if off > HINGE * width + KNUCKLE or abs(joint.axis[along]) < PARALLEL:
             yield _broken(3, member, off, f"<= {HINGE * width + KNUCKLE:.3g} m, along the edge")
-        if joint.limit is None or _way_out(body, joint, joint.limit.upper / 2.0) <= 0.0:
-            yield _broken(3, member, "opens inward", "the middle of the front moves to -y")
+        way, named = (UP, "up") if member.side == "rear" else (OUT, "to -y")
+        if joint.limit is None or _moved(body, joint, joint.limit.upper / 2.0) @ way <= 0.0:
+            yield _broken(3, member, "opens inward", f"the middle of the front moves {named}")
 
 
-def _way_out(body: Piece, joint: Joint, q: float) -> float:
-    """How far the middle of a body has moved toward -y at a state, m."""
+def _moved(body: Piece, joint: Joint, q: float) -> Floats:
+    """(3,) way that the middle of a body has gone at a state, m."""
     middle = body.bounds.mean(axis=0)[None]
     pose = forward_kinematics(joint.parent, [joint], {joint.name: q})[joint.child]
-    return float((middle - apply(pose, middle))[0, 1])
+    return np.asarray((apply(pose, middle) - middle)[0])
 
 
 def handles(case: Case) -> Iterator[Broken]:
@@ -347,8 +375,8 @@ OF_OBJECTS: tuple[Check, ...] = (
 
 
 def broken(case: Case) -> list[Broken]:
-    """All that does not hold of one object."""
-    return [found for check in OF_OBJECTS for found in check(case)]
+    """All that does not hold of one object; nothing else is asked of one without numbers."""
+    return list(finite(case)) or [found for check in OF_OBJECTS for found in check(case)]
 
 
 def _named(new: Assembled) -> list[tuple[str, Piece]]:

@@ -255,7 +255,7 @@ def is_slot(entry: Entry) -> bool:
     itself, a front can be told from what lies behind it or all of it goes, and it is no mere
     sheet."""
     solid = min(entry.width, entry.depth, entry.height) >= THINNEST
-    opens = entry.side in ("out", "along", "left", "right", "bottom", "top")
+    opens = entry.side in ("out", "along", "left", "right", "bottom", "top", "rear")
     closes = entry.label in ROLES and ROLES[entry.label].closes
     own = solid and entry.on_base and not entry.follows
     return not entry.is_base and own and opens and closes

@@ -9,6 +9,7 @@ import manifold3d as m3
 import numpy as np
 
 from artgen.articulation.canonical import parents_first
+from artgen.articulation.roles import ROLES
 from artgen.articulation.types import (
     ArticulatedObject,
     Draft,
@@ -17,7 +18,7 @@ from artgen.articulation.types import (
     Precondition,
 )
 from artgen.assembly.piece import Piece, body_boxes, joined, picked, piece_of_part
-from artgen.assembly.split import Split, split_bodies
+from artgen.assembly.split import Split, covers, split_bodies
 from artgen.core.licence import OURS, Licence
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
@@ -26,9 +27,9 @@ from artgen.finish import Rounder, collision_mesh, joined_mesh, meshed, settle_o
 from artgen.geometry.clearance import shape_of_mesh
 from artgen.geometry.solid import hull, slab
 
-Side = Literal["out", "along", "left", "right", "bottom", "top", "turn"]
-"""How a part opens: slid out to -y, slid otherwise, hinged at a side of its box, or turned about an
-axis along y or without end."""
+Side = Literal["out", "along", "left", "right", "bottom", "top", "rear", "turn"]
+"""How a part opens: slid out to -y, slid otherwise, hinged at a side of its box (`rear`: a lid that
+lies flat and is lifted), or turned about an axis along y or without end."""
 Kind = Literal["front", "whole"]
 """Whether a front can be told from the works behind it, or all but the handle goes as one."""
 ROUNDING = 1e-6
@@ -254,12 +255,13 @@ def _named(name: str, label: str, joint: Joint, split: Split | None, own: list[P
     rest = iter(own[1:])
     handle = next(rest) if split and split.handle else None
     works = next(rest) if split and split.works else None
+    lifted = label in ROLES and ROLES[label].closes and covers(joint, own[0].bounds)
     return Member(
         name=name,
         label=label,
         joint=joint,
         kind="front" if split else "whole",
-        side=side_of(joint, own[0].bounds),
+        side="rear" if lifted else side_of(joint, own[0].bounds),
         body=kept_within(own[0]) if split else own[0],
         handle=handle,
         works=works,

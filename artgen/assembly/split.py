@@ -31,6 +31,8 @@ HARDWARE = 0.012
 """m; what reaches this near to the axis of a hinge belongs to the hinge."""
 TOUCHING = 0.0015
 """m; bodies of one handle lie at most so far apart."""
+REAR = 0.25
+"""Share of its depth that the hinge of a lid lies at most off its rear edge."""
 Indices = tuple[int, ...]
 
 
@@ -46,7 +48,8 @@ class Split:
 def split_bodies(
     boxes: Floats, joint: Joint, grips: Sequence[Grip], *, handles: Sequence[int] = ()
 ) -> Split | None:
-    """Front, handle and works of a moving part; None where it shows no front toward -y.
+    """Front, handle and works of a moving part; None where it shows no front toward -y, as a lid
+    that lies flat: its rim or its knob is none.
 
     Args:
         boxes: (B, 2, 3) bounds of its bodies at rest, m.
@@ -55,6 +58,8 @@ def split_bodies(
         handles: numbers of the bodies that its source calls handles; those that stand out before
             the front are its handle, and nothing else is.
     """
+    if covers(joint, _hull(boxes)):
+        return None
     called = np.isin(np.arange(len(boxes)), list(handles))
     slab = None if called.all() else front_slab(boxes[~called])
     if slab is None:
@@ -69,6 +74,15 @@ def split_bodies(
     works = ~front & ~handle
     picked = [tuple(int(k) for k in np.flatnonzero(mask)) for mask in (front, handle, works)]
     return Split(front=picked[0], handle=picked[1], works=picked[2])
+
+
+def covers(joint: Joint, box: Floats) -> bool:
+    """Whether a part lies over an opening and is lifted: deeper than high, hinged along its rear
+    edge."""
+    if joint.type != "revolute" or int(np.argmax(np.abs(joint.axis))) != 0:
+        return False
+    _, depth, height = box[1] - box[0]
+    return bool(depth > height and abs(joint.origin[1] - box[1, 1]) < REAR * depth)
 
 
 def front_slab(boxes: Floats) -> Floats | None:

@@ -12,9 +12,11 @@ import pytest
 from artgen.articulation.types import Limit
 from artgen.assembly import invariants
 from artgen.assembly.invariants import broken
+from artgen.assembly.piece import piece_of_part
 from artgen.assembly_study.rows import left_as_it_was
 from artgen.core.licence import PARTNET
 from artgen.dataset.split import split_of
+from tests.strategies import box_part, hinge
 from tests.unit.assembly.mutations import (
     has,
     moved_by,
@@ -57,6 +59,43 @@ def test_2_and_6_a_donor_scaled_by_a_tenth_too_much(case_with):
     large = with_layer(case, name, "body", lambda piece: scaled(piece, 1.1))
     assert numbers(invariants.boxes(large)) == {2}
     assert numbers(invariants.clear(large)) == {6}
+
+
+def test_2_a_base_that_is_not_the_templates(case_with):
+    case = case_with(lambda c: len(c.new.parts) >= 3)
+    base = case.new.parts[0][0]
+    taller = with_piece(case, base, lambda p: moved_by(p, lambda v: v * (1.0, 1.0, 1.01)))
+    assert base in {fault.part for fault in invariants.boxes(taller)}
+
+
+def test_6_doors_that_meet_when_both_are_open(cases):
+    """Each alone passes the other, which is closed; the control opens less far."""
+    base = box_part("base", [((-0.4, 0.03, 0.0), (0.4, 0.3, 0.5))])
+    left = box_part("left", [((-0.4, 0.0, 0.0), (-0.01, 0.02, 0.5))])
+    right = box_part("right", [((0.01, 0.0, 0.0), (0.4, 0.02, 0.5))])
+    parts = tuple((p.name, p.label, piece_of_part(p)) for p in (base, left, right))
+    numbers_at = {}
+    for degrees in (80.0, 120.0):
+        limit = Limit(lower=0.0, upper=np.radians(degrees))
+        joints = tuple(
+            hinge(name, "base", name, axis=(0.0, 0.0, turn), origin=(x, 0.0, 0.0), limit=limit)
+            for name, x, turn in (("left", -0.01, 1.0), ("right", 0.01, -1.0))
+        )
+        both = with_new(cases[0], parts=parts, joints=joints, preconditions=())
+        numbers_at[degrees] = numbers(invariants.clear(both))
+    assert numbers_at == {80.0: set(), 120.0: {6}}
+
+
+def test_3_an_axis_that_is_not_along_its_edge(case_with):
+    """0.2 degrees off; 0.1 are allowed."""
+    case = case_with(has("left", "right"))
+    name = part_with(case, "left", "right").name
+    tilt = np.radians(0.2)
+    tilted = with_joint(
+        case, name,
+        lambda j: replace(j, axis=(np.sin(tilt), 0.0, float(np.copysign(np.cos(tilt), j.axis[2])))),
+    )  # fmt: skip
+    assert {fault.part for fault in invariants.hinges(tilted)} == {name}
 
 
 @pytest.mark.parametrize("side", ["left", "right"])
@@ -139,6 +178,33 @@ def test_7_a_drawer_that_leaves_its_rails(case_with):
     assert numbers(invariants.engaged(long)) == {7}
 
 
+def test_7_a_drawer_that_is_hardly_held(case_with):
+    """It starts far out, so that less than a tenth of it is left inside, with a travel that is
+    allowed."""
+    case = case_with(has("out"))
+    name = part_with(case, "out").name
+    length = float(np.ptp(case.new.piece(name).bounds[:, 1]))
+    out = with_piece(case, name, lambda p: moved_by(p, lambda v: v - (0.0, 0.5 * length, 0.0)))
+    half = with_joint(out, name, lambda j: replace(j, limit=Limit(lower=0.0, upper=0.5 * length)))
+    (fault,) = invariants.engaged(half)
+    assert (fault.number, fault.part) == (7, name)
+    assert "within the base" in fault.bound
+
+
+def test_9_a_triangle_without_area(cases):
+    case = cases[0]
+    name = next(iter(case.new.seams))
+
+    def flat(piece):
+        points = np.array(piece.mesh.vertices)
+        _, second, third = piece.mesh.faces[0]
+        points[third] = points[second]
+        return replace(piece, mesh=replace(piece.mesh, vertices=points))
+
+    faults = list(invariants.sound(with_piece(case, name, flat)))
+    assert any("m2" in fault.value for fault in faults)
+
+
 def test_9_mirrored_without_turning_the_winding(cases):
     case = cases[0]
     name = next(iter(case.new.seams))
@@ -192,6 +258,45 @@ def test_10_texture_left_stretched(cases):
             assert 10 in numbers(invariants.textured(left))
             caught += 1
     assert caught >= 3
+
+
+def test_10_a_coordinate_that_is_no_number(cases):
+    """Comparisons with NaN are false, so no bound was ever broken by one."""
+    case = cases[0]
+    name = next(iter(case.new.seams))
+
+    def spoiled(piece):
+        uv = np.array(piece.mesh.uv)
+        uv[0, 0, 0] = np.nan
+        return replace(piece, mesh=replace(piece.mesh, uv=uv))
+
+    (fault,) = broken(with_piece(case, name, spoiled))
+    assert (fault.number, fault.part) == (10, name)
+
+
+def test_10_a_part_that_is_denser_than_the_others(case_with):
+    """By 1.4 all over, which stretches nothing."""
+    case = case_with(lambda c: len(c.new.parts) >= 4)
+    name = next(iter(case.new.seams))
+    dense = with_piece(
+        case, name, lambda p: replace(p, mesh=replace(p.mesh, uv=np.asarray(p.mesh.uv) * 1.4))
+    )
+    faults = list(invariants.textured(dense))
+    assert name in {fault.part for fault in faults if fault.bound.startswith("density")}
+
+
+def test_10_a_material_that_is_dense_here_and_coarse_there(cases):
+    """Every second triangle of the base three times as dense."""
+    case = cases[0]
+    base = case.new.parts[0][0]
+
+    def uneven(piece):
+        uv = np.array(piece.mesh.uv)
+        uv[::2] *= 3.0
+        return replace(piece, mesh=replace(piece.mesh, uv=uv))
+
+    faults = list(invariants.textured(with_piece(case, base, uneven)))
+    assert any(fault.bound.startswith("variation") for fault in faults)
 
 
 def test_11_a_pane_that_became_wood(case_with):
