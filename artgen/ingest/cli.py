@@ -59,8 +59,8 @@ class Settings:
     node 3 of the object in folder 45940 moves at 90 degrees (units, where it slides); of a URDF,
     the robot's name and the joint's. Entries that fit nothing are told."""
     licence: str | None = None
-    """SPDX identifier of the objects' terms, such as CC-BY-4.0. It lifts none: where the source
-    binds more, as PartNet-Mobility does, that stays."""
+    """SPDX identifier of the objects' terms, such as CC-BY-4.0, CC-BY-NC-SA-4.0 or BSD-3-Clause.
+    It lifts none: where the source binds more, as PartNet-Mobility does, that stays."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side; the result is the same for any number."""
 
@@ -142,6 +142,8 @@ def partnet(argv: Sequence[str]) -> int:
 def urdf(argv: Sequence[str]) -> int:
     """URDF files to bundles: 0 all usable, 1 some refused."""
     command = tyro.cli(IngestUrdf, args=list(argv), prog="artgen ingest urdf")
+    if not math.isfinite(command.turn):
+        raise UsageError(f"--turn {command.turn} must be a number of degrees")
     found = found_files(command.paths, (".urdf",), command.root)
     options = dataclasses.replace(checked_options(command), turn_deg=command.turn)
     return run(command, "urdf", found, options)
@@ -184,8 +186,8 @@ def checked_options(command: Settings) -> Options:
         ("--max-parts", command.max_parts),
         ("--workers", command.workers),
     ):
-        if value is not None and not value > 0:
-            raise UsageError(f"{name} {value} must be above 0")
+        if value is not None and not 0 < value < math.inf:
+            raise UsageError(f"{name} {value} must be a number above 0")
     if command.pieces < 0:
         raise UsageError(f"--pieces {command.pieces} must be 0 or more")
     if command.licence is not None and command.licence not in KNOWN:

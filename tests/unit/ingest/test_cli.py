@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from artgen.core.errors import UsageError
-from artgen.ingest.cli import partnet, read_rests, static
+from artgen.ingest.cli import IngestPartnet, checked_options, partnet, read_rests, static, urdf
 from artgen.ingest.options import GivenRest
 
 
@@ -21,6 +21,22 @@ def test_a_rest_that_is_no_finite_number_is_refused(q: str, tmp_path: Path) -> N
     (tmp_path / "r.json").write_text(f'{{"45940": {{"3": {q}}}}}')
     with pytest.raises(UsageError, match=r"is no finite number.*write"):
         read_rests(tmp_path / "r.json")
+
+
+@pytest.mark.parametrize("option", ["--density", "--thickness", "--meters-per-unit", "--turn"])
+@pytest.mark.parametrize("value", ["inf", "nan"])
+def test_a_number_that_is_none_is_refused(option: str, value: str, tmp_path: Path) -> None:
+    """Infinity was above 0: an object of infinite mass."""
+    with pytest.raises(UsageError, match=option):
+        urdf([str(tmp_path), option, value, "--out", str(tmp_path / "out")])
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("word", ["BSD-3-Clause", "CC-BY-NC-SA-4.0"])
+def test_licences_that_robots_and_scans_come_under_can_be_named(word: str) -> None:
+    assert checked_options(IngestPartnet(licence=word)).licence == word
+    with pytest.raises(UsageError, match="known:"):
+        checked_options(IngestPartnet(licence=f"{word}x"))
 
 
 def test_a_run_that_found_nothing_is_no_success(
