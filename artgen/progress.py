@@ -57,7 +57,7 @@ def _bar(console: Console) -> Progress:
         TimeElapsedColumn(),
         TextColumn("ETA"),
         TimeRemainingColumn(),
-        TextColumn("{task.fields[note]}"),
+        TextColumn("{task.fields[note]}", markup=False),
         console=console,
     )
 
@@ -78,6 +78,8 @@ def _plain(console: Console, title: str, total: int) -> Callable[[str], None]:
         console.print(
             f"{title}: {done}/{total}, {60.0 * rate:.1f}/min, ETA {left:.0f} s, last {note}",
             highlight=False,
+            markup=False,  # Notes hold paths, which may hold brackets.
+            soft_wrap=True,
         )
 
     return advance

@@ -81,7 +81,7 @@ def library(argv: Sequence[str]) -> int:
         sharp=command.sharp,
     )
     tell_library(Library(command.out), Console())
-    tell_left_out(faults, Console())
+    tell_left_out(faults, Console(soft_wrap=True))
     Console().print(f"library {command.out}, digest {digest[:12]}", highlight=False)
     return int(bool(faults))
 
@@ -153,7 +153,7 @@ def assemble(argv: Sequence[str]) -> int:
         place = command.library or embedded_library(
             folder.work, workers=command.workers, show=progress
         )
-        tell_terms(opened_market(place, command.what).library, Console())
+        tell_terms(opened_market(place, command.what).library, Console(soft_wrap=True))
         tasks = [
             AssembleTask(what=command.what, index=k, seed=command.seed, library=place)
             for k in range(command.count)
@@ -210,5 +210,5 @@ def tell_outcomes(folder: RunFolder, outcomes: Sequence[Outcome]) -> None:
         highlight=False,
     )
     for message, count in Counter(outcome.message for outcome in failed).most_common(20):
-        console.print(f"given up {count} x {message}", highlight=False)
+        console.print(f"given up {count} x {message}", highlight=False, markup=False)
     console.print(f"log {folder.logs / 'run.log'}", highlight=False)
