@@ -55,7 +55,8 @@ class Rig:
     """All shots of one object.
 
     Attributes:
-        upright: whether the world is the object's: z up, front -y; else it is turned so.
+        front_stated: whether -y of the world is the object's front; else the first camera stands
+            there, and what the network says decides.
         center: (3,) middle of the object's sphere in the world; None where it is not stated.
         radius: of that sphere, in the file's unit; None likewise.
         meters: one unit of length in m.
@@ -63,7 +64,7 @@ class Rig:
 
     file: Path
     shots: tuple[Shot, ...]
-    upright: bool = True
+    front_stated: bool = True
     center: Floats | None = None
     radius: float | None = None
     meters: float = 1.0

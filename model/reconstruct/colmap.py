@@ -1,7 +1,7 @@
 """COLMAP's text model: `cameras.txt` and `images.txt` of a folder.
 
 Poses are `camera_from_world` with OpenCV axes as quaternions w, x, y, z. The world is any: it is
-turned upright by what most cameras hold up.
+set upright (`model/reconstruct/rig.py`) and its front looked for (`model/reconstruct/front.py`).
 """
 
 from pathlib import Path
@@ -40,7 +40,7 @@ def rig_of_colmap(folder: Path) -> Rig:
         shots.append(_shot(path, line.split(maxsplit=9), cameras))
     if not shots:
         raise ModelError(f"{path}: names no image")
-    return Rig(file=path, shots=tuple(shots), upright=False)
+    return Rig(file=path, shots=tuple(shots), front_stated=False)
 
 
 def _lines(path: Path, *, keep_empty: bool = False) -> list[str]:

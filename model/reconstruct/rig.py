@@ -13,6 +13,9 @@ from model.reconstruct.colmap import rig_of_colmap
 from model.reconstruct.nerf import rig_of_transforms
 from model.reconstruct.stated import read_json
 
+LINE = np.sin(np.radians(6.0)) ** 2
+"""Mean square of what cameras' rights have beside a line, below which they are one."""
+
 
 def read_rig(cameras: Path, images: Path) -> Rig:
     """The rig of a camera file: a folder is COLMAP's, a JSON file with frames NeRF's, else ours.
@@ -34,16 +37,31 @@ def read_rig(cameras: Path, images: Path) -> Rig:
 
 
 def upright(rig: Rig) -> Rig:
-    """The rig with its world turned: up is what the cameras hold up, and the front (-y) is where
-    the first camera stands."""
+    """The rig with its world turned: up is what `up_of` says, -y where the first camera stands."""
     poses = [inverted(shot.camera_from_world) for shot in rig.shots]
-    up = _unit(-np.sum([pose[:3, 1] for pose in poses], axis=0), np.array([0.0, 0.0, 1.0]))
+    up = up_of(np.array([pose[:3, :3] for pose in poses]))
     toward = poses[0][:3, 2]
     away = _unit(toward - (toward @ up) * up, np.eye(3)[int(np.argmin(np.abs(up)))])
     right = np.cross(away, up)
     object_from_world = np.eye(4)
     object_from_world[:3, :3] = np.stack([right, away, up])
     return turned(rig, object_from_world)
+
+
+def up_of(turns: Floats) -> Floats:
+    """(3,) what is up in the world of some cameras: what is square to the right of all of them, as
+    nobody tilts a camera sideways; what they hold up leans toward them by how far they look down.
+
+    Where their rights are almost one line, which leaves a fan of directions, it is the one of these
+    nearest to what they hold up.
+
+    Args:
+        turns: (N, 3, 3) world_from_camera, OpenCV axes.
+    """
+    held = _unit(-turns[:, :, 1].sum(axis=0), np.array([0.0, 0.0, 1.0]))
+    spread, axes = np.linalg.eigh(turns[:, :, 0].T @ turns[:, :, 0] / len(turns))
+    fan = axes[:, spread <= max(LINE, float(spread[0]))]
+    return _unit(fan @ (fan.T @ held), held)
 
 
 def _unit(vector: Floats, otherwise: Floats) -> Floats:
@@ -62,4 +80,4 @@ def turned(rig: Rig, object_from_world: Floats) -> Rig:
     center = rig.center
     if center is not None:
         center = object_from_world[:3, :3] @ center + object_from_world[:3, 3]
-    return dataclasses.replace(rig, shots=shots, center=center, upright=True)
+    return dataclasses.replace(rig, shots=shots, center=center)

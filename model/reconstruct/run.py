@@ -20,9 +20,11 @@ from model.config import Config
 from model.reconstruct import films
 from model.reconstruct.agreement import agreeing
 from model.reconstruct.assemble import Assembled, Wishes, assemble
+from model.reconstruct.cameras import Rig
 from model.reconstruct.capture import Capture, read_capture
 from model.reconstruct.choice import chosen_views
 from model.reconstruct.draw import Painter
+from model.reconstruct.front import faced, told_front
 from model.reconstruct.hull import VisualHull, check_cameras
 from model.reconstruct.masks import found_segmenter
 from model.reconstruct.photo import Photo, PhotoColors
@@ -191,10 +193,15 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     """What the network predicts of the images, as an object; nothing is written."""
     art, config, _ = load_art(order.checkpoint)
     watch.lap("checkpoint")
-    capture, first = seen_object(order)
-    asked = question(art, config, capture, first, parts=order.parts)
-    choice = chosen_views(capture, first, config.data)
+    rig = read_rig(order.cameras, order.images)
+    capture, first = seen_object(order, rig)
+    asked, facing = question(art, config, capture, first, parts=order.parts), list[str]()
     watch.lap("images")
+    if not rig.front_stated:
+        asked, front = faced(asked)
+        facing.append(told_front(front))
+    capture = asked.capture
+    choice = chosen_views(capture, asked.about, config.data)
     finding = searched(asked, choice)
     prediction, sphere, seen = finding.prediction, finding.sphere, finding.seen
     watch.lap("network")
@@ -223,15 +230,14 @@ def made_object(order: Order, watch: Stopwatch) -> Made:
     return Made(
         capture=capture,
         finding=finding,
-        told=(*choice.told, *told_of(finding, asked)),
+        told=(*facing, *choice.told, *told_of(finding, asked)),
         config=config,
         assembled=assembled,
     )
 
 
-def seen_object(order: Order) -> tuple[Capture, Sphere]:
+def seen_object(order: Order, rig: Rig) -> tuple[Capture, Sphere]:
     """The images and where the object is, after a look whether cameras and masks agree."""
-    rig = read_rig(order.cameras, order.images)
     segmenter = found_segmenter(order.segmenter) if order.segmenter else None
     capture = read_capture(order.images, rig, masks=order.masks, segmenter=segmenter)
     hull: VisualHull = check_cameras(capture)
