@@ -33,8 +33,9 @@ class TensorBlock:
         return dataclasses.replace(self, **changed)  # type: ignore[type-var]
 
     def to(self, device: torch.device | str) -> Self:
-        """The same block on another device."""
-        return self.mapped(lambda tensor: tensor.to(device, non_blocking=True))
+        """The same block on another device; ready when it comes to the CPU, where nothing waits."""
+        aside = torch.device(device).type != "cpu"
+        return self.mapped(lambda tensor: tensor.to(device, non_blocking=aside))
 
 
 def _fields(block: TensorBlock) -> dict[str, object]:

@@ -11,7 +11,7 @@ from model.network.prediction import Prediction
 
 
 def predict(art: Art, config: Config, images: Images, *, parts: int | None) -> Prediction:
-    """What the network makes of one object.
+    """What the network makes of one object, on the device of its weights.
 
     Args:
         parts: how many, base included; None asks the network, which may have a head for it.
@@ -21,17 +21,19 @@ def predict(art: Art, config: Config, images: Images, *, parts: int | None) -> P
             not given, or more than it has slots.
     """
     check_images(config, images)
+    images = images.to(next(art.parameters()).device)
     with torch.inference_mode():
         if parts is None:
             parts = counted(art, config, images)
         check_parts(config, parts)
-        return art(images, first_slots(config, parts, len(images.rgb_BTV3HW)))
+        return art(images, first_slots(config, parts, images))
 
 
-def first_slots(config: Config, parts: int, objects: int) -> Tensor:
+def first_slots(config: Config, parts: int, images: Images) -> Tensor:
     """(B, P) bool: the first `parts` slots of each object."""
-    valid = torch.arange(config.model.slots) < parts
-    return valid.expand(objects, -1).clone()
+    rgb = images.rgb_BTV3HW
+    valid = torch.arange(config.model.slots, device=rgb.device) < parts
+    return valid.expand(len(rgb), -1).clone()
 
 
 def counted(art: Art, config: Config, images: Images) -> int:
@@ -45,7 +47,7 @@ def counted(art: Art, config: Config, images: Images) -> int:
             "the number of parts is not given and this checkpoint does not count them; say --parts "
             f"N, 1 to {config.model.slots}, base included"
         )
-    count = art(images, first_slots(config, 1, len(images.rgb_BTV3HW))).count()
+    count = art(images, first_slots(config, 1, images)).count()
     return 1 if count is None else int(count[0])
 
 

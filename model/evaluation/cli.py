@@ -92,6 +92,8 @@ class Evaluate:
     lpips: Path | None = None
     """Folder with LPIPS's weights: AlexNet's of torchvision (alexnet*.pth) and the heads of the
     package lpips (alex.pth). Without them LPIPS is null."""
+    device: Literal["auto", "cpu", "cuda"] = "cpu"
+    """Where a network predicts, makes surfaces and renders; auto takes a GPU where there is one."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side, for folders."""
     train: Path | None = None
@@ -200,7 +202,7 @@ def judged_network(command: Evaluate, protocol: Protocol) -> Report:
     }
     module = import_module("model.evaluation.network_run")
     with run_folder(command.out, {**stated_run(command, protocol), "asked": plain(asked)}):
-        run = module.NetworkRun(**asked)
+        run = module.NetworkRun(**asked, device=command.device)
         records = module.run(run, protocol, command.out / "objects")
         told = f"Held-out objects: split {command.split}, at most {command.count}."
         return written(command, protocol, records, [told])

@@ -40,6 +40,7 @@ from model.evaluation.surfaces import has_surface
 from model.fitting.object_fit import FitConfig
 from model.network.encoders.registry import make_encoder
 from model.training.art_file import load_art
+from model.training.distributed import device_named
 
 LEAST_PX = 16
 """Images that nobody looks at are made as small as this."""
@@ -61,6 +62,7 @@ class NetworkRun:
         fit_steps: updates of `fit`.
         train_count: training objects of a baseline at most.
         blind: whether a network is shown nothing.
+        device: where a network predicts; what is made of it is measured on the CPU.
         pose_noise_deg, pose_noise: of the poses that are stated to a network, as in `DataConfig`.
     """
 
@@ -83,6 +85,7 @@ class NetworkRun:
     pose_noise: float = 0.0
     blind: bool = False
     azimuth_deg: float = 180.0
+    device: str = "cpu"
 
     @property
     def noisy(self) -> bool:
@@ -155,7 +158,9 @@ def run_key(asked: NetworkRun, protocol: Protocol) -> str:
         hashes.append(fingerprint(asked.truth, asked.split))
     if asked.train is not None and asked.train.exists():
         hashes.append(fingerprint(asked.train, "train"))
-    return content_hash([dataclasses.asdict(asked), protocol, hashes])
+    table = dataclasses.asdict(asked)
+    del table["device"]  # Alike but for rounding.
+    return content_hash([table, protocol, hashes])
 
 
 def opened(place: Path, split: Split | None, slots: int) -> Source[Any]:
@@ -181,7 +186,7 @@ def made_predictor(asked: NetworkRun) -> tuple[Predictor, DataConfig]:
     if path.is_file():
         art, config, _ = load_art(path)
         own = ArtPredictor(
-            art=art,
+            art=art.to(device_named(asked.device)),
             config=config,
             counts=asked.counts,
             resolution=asked.resolution,

@@ -143,7 +143,8 @@ class ArtPredictor:
 
         A state that was not shown is reached by the true motion, its sign turned with the axis.
         """
-        everything, seen = item.everything, item.shown.images.rgb_BTV3HW.shape[1:3]
+        everything = item.everything.to(prediction.type_logits_BP2.device)
+        seen = item.shown.images.rgb_BTV3HW.shape[1:3]
         cameras = everything.images
         poses = cameras.camera_from_world_BTV44[:, :, seen[1] :]
         if not poses.shape[2]:
@@ -172,8 +173,8 @@ class ArtPredictor:
                     image_scores(
                         _rows(made.over(1.0)[0, t, v]),
                         _rows(true.rgb_BTV3HW[0, t, seen[1] + v]),
-                        made.alpha_BTVHW[0, t, v].numpy() > 0.5,
-                        true.alpha_BTVHW[0, t, seen[1] + v].numpy() > 0.5,
+                        made.alpha_BTVHW[0, t, v].cpu().numpy() > 0.5,
+                        true.alpha_BTVHW[0, t, seen[1] + v].cpu().numpy() > 0.5,
                         perceptual=self.perceptual,
                     )
                 )
@@ -238,4 +239,4 @@ def surfaces(found: Sequence[ColoredMesh]) -> dict[int, TriMesh]:
 
 def _rows(image_3HW: torch.Tensor) -> Floats:
     """(H, W, 3) in [0, 1]."""
-    return np.asarray(image_3HW.movedim(0, -1).double().numpy().clip(0.0, 1.0))
+    return np.asarray(image_3HW.movedim(0, -1).double().cpu().numpy().clip(0.0, 1.0))

@@ -146,7 +146,7 @@ def boxes_of(articulation: Articulation) -> Floats:
     """(P, 2, 3) lower and upper corners of all parts at rest, radii."""
     valid = articulation.valid_BP[0]
     middle, half = articulation.center_BP3[0, valid], articulation.size_BP3[0, valid] / 2.0
-    return np.asarray(torch.stack([middle - half, middle + half], dim=1).double())
+    return np.asarray(torch.stack([middle - half, middle + half], dim=1).double().cpu())
 
 
 def box_likeness(one: Floats, other: Floats) -> float:

@@ -77,7 +77,7 @@ def matched_slots(own: Articulation, said: Articulation) -> list[tuple[int, int]
         for articulation in (own, said)
     )
     cost = torch.cdist(_boxes(own, slots), _boxes(said, others))
-    rows, columns = linear_sum_assignment(np.asarray(cost))
+    rows, columns = linear_sum_assignment(np.asarray(cost.cpu()))
     return [(slots[row], others[column]) for row, column in zip(rows, columns, strict=True)]
 
 

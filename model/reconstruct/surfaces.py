@@ -46,7 +46,8 @@ def _shade(
     """The field's color of a part at points in m."""
 
     def shade(points: Floats) -> Floats:
-        at = torch.as_tensor(points / radius, dtype=torch.float32)
-        return colors_at(field, articulation, slot, at, index=number).double().numpy()
+        device = articulation.center_BP3.device
+        at = torch.as_tensor(points / radius, dtype=torch.float32, device=device)
+        return colors_at(field, articulation, slot, at, index=number).double().cpu().numpy()
 
     return shade

@@ -54,7 +54,7 @@ def joined(
         device: "cpu", "cuda", or "auto" for a GPU where there is one.
     """
     local = int(environment.get("LOCAL_RANK", "0"))
-    place = _device(device, local)
+    place = device_named(device, local)
     if int(environment.get("WORLD_SIZE", "1")) == 1:
         yield Team(device=place)
         return
@@ -65,7 +65,12 @@ def joined(
         dist.destroy_process_group()
 
 
-def _device(name: str, local: int) -> torch.device:
+def device_named(name: str, local: int = 0) -> torch.device:
+    """ "cpu", "cuda", or "auto" for a GPU where there is one.
+
+    Raises:
+        ModelError: there is none.
+    """
     if name == "auto":
         name = "cuda" if torch.cuda.is_available() else "cpu"
     if name != "cuda":

@@ -109,7 +109,9 @@ def _key(asked: NetworkRun, mask_pixels: int) -> str:
     """What a score depends on."""
     splits = {"predictions": None, "truth": asked.split, "train": "train"}
     hashes = {name: _content(getattr(asked, name), split) for name, split in splits.items()}
-    return content_hash([SCHEMA, {**plain(asked), **hashes}, mask_pixels])
+    table = {**plain(asked), **hashes}
+    del table["device"]  # Alike but for rounding.
+    return content_hash([SCHEMA, table, mask_pixels])
 
 
 def _content(place: Path | str | None, split: Split | None) -> str:

@@ -1,13 +1,14 @@
 """What the network is not made for is told before it runs."""
 
 import dataclasses
+from contextlib import nullcontext
 
 import pytest
 import torch
 
 from artgen.core.errors import ModelError
 from model.batch import Images
-from model.config import Config
+from model.config import Config, Size
 from model.infer import predict
 from model.network.art import Art
 from model.training.recipes import RECIPES, articulation_only
@@ -102,3 +103,19 @@ def test_the_number_of_parts_is_counted_where_it_is_not_given(
     else:
         with pytest.raises(ModelError, match="does not count them; say --parts"):
             predict(art, config, seen, parts=None)
+
+
+@pytest.mark.parametrize("size", ["nano", "s"])
+def test_it_computes_where_its_weights_are(size: Size, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A device without memory refuses tensors of any other, as a GPU does; autocast does not know
+    it."""
+    monkeypatch.setattr(torch, "autocast", lambda *_, **__: nullcontext())
+    config = RECIPES["multiview"](size)
+    art = Art(config.model).to("meta")
+    found = predict(art, config, images(config, states=2, views=config.data.views), parts=3)
+    assert found.articulation.valid_BP.device.type == "meta"
+    points, slot = torch.rand(1, 5, 3, device="meta"), torch.zeros(1, dtype=torch.int64)
+    assert found.planes_BP6CHW is not None
+    assert found.planes_BP6CHW.device.type == "meta"
+    with pytest.raises(RuntimeError):  # So it does refuse.
+        found.field().distances(points, slot)
