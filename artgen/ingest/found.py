@@ -12,6 +12,11 @@ MARKS = ("mobility_v2.json", "mobility.urdf", "meta.json", "result.json")
 ARCHIVES = (
     ".zip", ".tar", ".gz", ".tgz", ".bz2", ".tbz", ".xz", ".txz", ".zst", ".7z", ".rar",
 )  # fmt: skip
+NO_FOLDERS = (
+    f"holds no object folder (with {MARKS[0]}); name one such as partnet-mobility/45940, or the "
+    "folder that holds them"
+)
+MISSING = "does not exist; check the path"
 PREFIX = {"partnet": "pm", "urdf": "urdf", "static": "static"}
 
 
@@ -44,7 +49,7 @@ def _folders(path: Path) -> Iterator[Found]:
     else:
         inner = [p for p in sorted(path.iterdir()) if not p.name.startswith(".")]
         found = [entry for place in inner if (entry := _claimed(place, path)) is not None]
-        nothing = Found(path=path, problem=f"holds no object folder (with {MARKS[0]})")
+        nothing = Found(path=path, problem=NO_FOLDERS)
         yield from found or [nothing]
 
 
@@ -75,7 +80,7 @@ def _within(place: Path, root: Path) -> bool:
 
 def _no_folder(path: Path) -> str:
     if not path.exists():
-        return "is a link that leads nowhere" if path.is_symlink() else "does not exist"
+        return "is a link that leads nowhere" if path.is_symlink() else MISSING
     return f"is a file ({path.suffix or 'no suffix'}), not a folder; unpack it first"
 
 
@@ -102,9 +107,9 @@ def _files(path: Path, suffixes: Sequence[str], root: Path | None) -> Iterator[F
         for place in inner:
             yield Found(path=place, problem=_astray(place, path), root=root or path)
         if not inner:
-            yield Found(path=path, problem=f"holds no {', '.join(suffixes)}")
+            yield Found(path=path, problem=f"holds no {', '.join(suffixes)} at any depth")
     elif not path.exists():
-        yield Found(path=path, problem="does not exist")
+        yield Found(path=path, problem=MISSING)
     elif path.suffix.lower() not in suffixes:
         yield Found(path=path, problem=f"is no {', '.join(suffixes)}")
     else:

@@ -12,7 +12,7 @@ from artgen.run_folder import RunFolder
 
 SCHEMA = "artgen-ingest/1"
 WIDE = 110
-"""Letters of a message in the table."""
+"""Letters that the table shows of the findings on a bundle; its own report has them all."""
 
 
 def write_report(
@@ -80,7 +80,10 @@ def table(outcomes: Sequence[Outcome], rests: Sequence[GivenRest] = ()) -> str:
 
 
 def note(outcome: Outcome) -> str:
-    """What the table says of an object: why it is refused or flawed, else what was done to it."""
+    """What the table says of an object: of one that is refused all there is to know, as there is no
+    bundle that says more; how one is flawed; else what was done to it."""
+    if outcome.status == "refused":
+        return f"{outcome.source}: {outcome.message}"
     if outcome.message:
         return _short(outcome.message)
     counts = {key: len(outcome.said.get(key, ())) for key in ("mended", "dropped", "doubts")}
@@ -88,4 +91,4 @@ def note(outcome: Outcome) -> str:
 
 
 def _short(text: str) -> str:
-    return text if len(text) <= WIDE else f"{text[: WIDE - 3]}..."
+    return text if len(text) <= WIDE else f"{text[: WIDE - 3]}... (all of it: report.json)"

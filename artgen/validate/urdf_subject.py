@@ -180,10 +180,12 @@ def pose_of(element: ET.Element) -> Floats:
     origin = element.find("origin")
     if origin is None:
         return np.eye(4)
-    xyz = numbers(origin.get("xyz", "0 0 0"))
-    rpy = numbers(origin.get("rpy", "0 0 0"))
+    stated = {key: origin.get(key, "0 0 0") for key in ("xyz", "rpy")}
+    xyz, rpy = numbers(stated["xyz"]), numbers(stated["rpy"])
     if len(xyz) != 3 or len(rpy) != 3 or not np.isfinite([*xyz, *rpy]).all():
-        raise GeometryError(f"an <origin> of <{element.tag}> is not six finite numbers")
+        whose = " ".join([element.tag, *filter(None, [element.get("name")])])
+        said = " ".join(f"{key}={text[:60]!r}" for key, text in stated.items())
+        raise GeometryError(f"the <origin {said}> of <{whose}> is not six finite numbers")
     return rigid(matrix_from_rpy(rpy), xyz)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from artgen.core.errors import UsageError
-from artgen.ingest.found import Found, found_files, found_folders, named
+from artgen.ingest.found import NO_FOLDERS, Found, found_files, found_folders, named
 
 
 def folder(root: Path, name: str) -> Path:
@@ -37,7 +37,7 @@ def test_a_folder_without_an_object_is_told(tmp_path: Path) -> None:
     data.mkdir()
     for _ in range(2):
         (entry,) = found_folders([data])
-        assert entry == Found(path=data, problem="holds no object folder (with mobility_v2.json)")
+        assert entry == Found(path=data, problem=NO_FOLDERS)
         (data / "readme.txt").write_text("")
 
 
@@ -75,7 +75,7 @@ def test_what_is_no_folder_is_told(tmp_path: Path) -> None:
     (tmp_path / "45940.zip").write_bytes(b"PK")
     problems = [e.problem for e in found_folders([tmp_path / "45940.zip", tmp_path / "none"])]
     assert "is a file (.zip)" in problems[0]
-    assert problems[1] == "does not exist"
+    assert problems[1] == "does not exist; check the path"
 
 
 def test_no_path_is_an_error() -> None:

@@ -36,3 +36,17 @@ def test_entries_of_the_table_of_rests_that_fit_nothing_are_told() -> None:
     lines = table([READ, REFUSED], rests).splitlines()
     assert lines[-3:] == [f"--rest entry not used  {line}" for line in expected]
     assert report([READ], rests[:1])["rests_unused"] == []
+
+
+def test_a_refusal_is_told_to_its_end_and_with_its_place() -> None:
+    """It was cut at 110 letters, in the file as well, before it said what had been expected."""
+    message = f"{'a part without a mesh, ' * 8}what was expected; what to do"
+    refused = Outcome(asset_id="pm_7", source="data/7", status="refused", message=message)
+    assert f"data/7: {message}" in table([refused])
+
+
+def test_findings_on_a_bundle_are_cut_where_its_report_has_them() -> None:
+    message = f"joint.rest: {'a door is not quite closed, ' * 8}"
+    flawed = Outcome(asset_id="pm_8", source="data/8", status="flawed", message=message)
+    (line,) = (line for line in table([flawed]).splitlines() if "pm_8" in line)
+    assert line.endswith("... (all of it: report.json)")

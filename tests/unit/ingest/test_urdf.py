@@ -201,6 +201,11 @@ BOMB = (
             "<parent link='a'/><child link='b'/><axis xyz='0 0 nan'/></joint></robot>",
             "its axis is",
         ),
+        (
+            "<robot><link name='a'/><link name='b'/><joint name='x' type='revolute'>"
+            "<parent link='a'/><child link='b'/><origin xyz='1 nan 0'/></joint></robot>",
+            "the <origin xyz='1 nan 0' rpy='0 0 0'> of <joint x> is not six finite numbers",
+        ),
     ],
 )
 def test_hostile_and_broken_files_are_refused_in_one_line(
@@ -208,7 +213,7 @@ def test_hostile_and_broken_files_are_refused_in_one_line(
 ) -> None:
     with pytest.raises(Exception, match=told) as caught:
         read_urdf(written(tmp_path, content), turn_deg=0.0)
-    assert type(caught.value).__name__ in ("IngestError", "ExportError")
+    assert type(caught.value).__name__ in ("IngestError", "ExportError", "GeometryError")
     assert "\n" not in str(caught.value)
 
 
