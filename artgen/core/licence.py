@@ -91,12 +91,13 @@ def most_restrictive(licences: Iterable[Licence]) -> Licence:
 
 
 def stated_licence(stated: object) -> Licence:
-    """The licence that JSON states, as an identifier or as an object.
+    """The licence that is stated as such, or in JSON as an identifier or as an object.
 
     What a listed licence allows is known: a statement can narrow it, not widen it. An unlisted one
     allows what it says outright; what cannot be understood allows nothing.
     """
     entry = {"id": stated} if isinstance(stated, str) else stated
+    entry = vars(entry) if isinstance(entry, Licence) else entry
     if not isinstance(entry, Mapping) or not isinstance(entry.get("id"), str):
         return UNSTATED
     known = FOLDED.get(entry["id"].casefold())

@@ -10,6 +10,7 @@ import numpy as np
 from artgen.articulation.targets import swept_sphere
 from artgen.articulation.types import ArticulatedObject, Part
 from artgen.core.jsonio import file_hash, plain
+from artgen.core.licence import OURS, licence_of
 from artgen.core.mesh import TriMesh
 from artgen.export.kinematics import as_file_joint
 from artgen.export.layout import MANIFEST, REPORT, BoxPiece, collision_pieces, mesh_path
@@ -76,8 +77,8 @@ def closed_volume(mesh: TriMesh, open_numbers: Sequence[int]) -> float:
 
 def license_text(provenance: Mapping[str, object]) -> str:
     """The terms of what an object was made from, or those of our own generators."""
-    stated = provenance.get("licence")
-    return str(stated["text"]) if isinstance(stated, Mapping) and "text" in stated else LICENSE
+    licence = licence_of(provenance)
+    return LICENSE if licence == OURS else licence.text
 
 
 def part_entry(obj: ArticulatedObject, part: Part) -> dict[str, Any]:
