@@ -1,6 +1,6 @@
 """Soups of bundles: ingested and assembled objects, whatever made them; colors from the atlas."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -28,6 +28,20 @@ ROUGHNESS = 0.5
 """The atlas holds colors alone."""
 
 
+STATIC = "static"
+"""The data set of what `artgen ingest static` makes."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Part:
+    """What fills a slot: some bodies of a mesh, and the box of these, m."""
+
+    name: str
+    mesh: TriMesh
+    bodies: range
+    bounds: Floats
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Piece:
     """Triangles of one body that have one color, sRGB (3,) in [0, 1]."""
@@ -46,27 +60,52 @@ def bundle_soup(folder: Path, *, tolerance: float = TOLERANCE) -> Soup:
     """
     bundle = read_bundle(folder)
     atlas = read_png(folder / atlas_path(bundle.asset_id)) / 255.0
+    parts = list(_parts(bundle))
     pieces = [
         piece
-        for k, part in enumerate(bundle.parts)
-        for piece in _pieces(k, bundle.load_mesh(part.name), atlas, tolerance * bundle.radius)
+        for k, part in enumerate(parts)
+        for piece in _pieces(k, part, atlas, tolerance * bundle.radius)
     ]
-    return _joined(bundle, pieces)
+    return _joined(bundle, parts, pieces)
 
 
-def _pieces(part: int, mesh: TriMesh, atlas: Floats, tolerance: float) -> Iterator[_Piece]:
+def _parts(bundle: Bundle) -> Iterator[_Part]:
+    """The parts of a bundle; those of a static mesh that was ingested are runs of bodies of its one
+    rigid part, in their order, and hang on nothing."""
+    source = bundle.manifest.get("source")
+    static = isinstance(source, Mapping) and source.get("dataset") == STATIC
+    for part in bundle.parts:
+        mesh = bundle.load_mesh(part.name)
+        runs = bundle.manifest["fragments"][part.name] if static else []
+        if len(runs) < 2:
+            yield _Part(name=part.name, mesh=mesh, bodies=range(part.bodies), bounds=part.bounds)
+            continue
+        for k, run in enumerate(runs):
+            first, count = run["bodies"]
+            bodies = range(first, first + count)
+            corners = mesh.triangles[np.isin(np.asarray(mesh.body), bodies)].reshape(-1, 3)
+            yield _Part(
+                name=part.name if k == 0 else str(run["leaf"]),
+                mesh=mesh,
+                bodies=bodies,
+                bounds=np.stack([corners.min(axis=0), corners.max(axis=0)]),
+            )
+
+
+def _pieces(number: int, part: _Part, atlas: Floats, tolerance: float) -> Iterator[_Piece]:
+    mesh = part.mesh
     colors, bodies = _face_colors(mesh, atlas), np.asarray(mesh.body)
-    for body in range(int(bodies.max()) + 1):
+    for body in part.bodies:
         faces, own = mesh.faces[bodies == body], colors[bodies == body]
         if own.std(axis=0).max() < ALIKE:
             vertices, simple = _simplified(mesh.vertices, faces, tolerance)
-            yield _Piece(part=part, vertices=vertices, faces=simple, color=own.mean(axis=0))
+            yield _Piece(part=number, vertices=vertices, faces=simple, color=own.mean(axis=0))
             continue
         rounded = np.rint(own * STEPS) / STEPS
         shades, index = np.unique(rounded, axis=0, return_inverse=True)
         for k, shade in enumerate(shades):
             some = faces[index.reshape(-1) == k]
-            yield _Piece(part=part, vertices=mesh.vertices, faces=some, color=shade)
+            yield _Piece(part=number, vertices=mesh.vertices, faces=some, color=shade)
 
 
 def _face_colors(mesh: TriMesh, atlas: Floats) -> Floats:
@@ -91,7 +130,7 @@ def _simplified(vertices: Floats, faces: Ints, tolerance: float) -> tuple[Floats
     return np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts, np.int32)
 
 
-def _joined(bundle: Bundle, pieces: list[_Piece]) -> Soup:
+def _joined(bundle: Bundle, parts: Sequence[_Part], pieces: list[_Piece]) -> Soup:
     looks, surface = _palette(np.stack([piece.color for piece in pieces]))
     compact = [_used(piece) for piece in pieces]
     starts = np.cumsum([0] + [len(vertices) for vertices, _ in compact])
@@ -99,11 +138,11 @@ def _joined(bundle: Bundle, pieces: list[_Piece]) -> Soup:
     return Soup(
         asset_id=bundle.asset_id,
         category=bundle.category,
-        parts=tuple(part.name for part in bundle.parts),
+        parts=tuple(part.name for part in parts),
         joints=bundle.joints,
         preconditions=bundle.preconditions,
         donors=families_of(bundle.manifest),
-        bounds=np.stack([part.bounds for part in bundle.parts]),
+        bounds=np.stack([part.bounds for part in parts]),
         center=bundle.center,
         radius=bundle.radius,
         vertices=np.concatenate([vertices for vertices, _ in compact]).astype(np.float32),

@@ -101,11 +101,12 @@ def drawn_scene(soup: Soup, config: DataConfig, stream: Stream) -> Scene:
 
 
 def _poses(soup: Soup, states: Sequence[State], slots: int) -> Floats:
-    """(T, P, 4, 4) where parts at rest are in each state, radii; identity in empty slots."""
+    """(T, P, 4, 4) where parts at rest are in each state, radii; identity in empty slots, and where
+    nothing moves a part."""
     poses = np.tile(np.eye(4), (len(states), slots, 1, 1))
     for t, state in enumerate(states):
         by_name = forward_kinematics(soup.parts[0], soup.joints, state)
-        moved = np.stack([by_name[name] for name in soup.parts])
+        moved = np.stack([by_name.get(name, np.eye(4)) for name in soup.parts])
         poses[t, : len(moved)] = centered(moved, soup.center, soup.radius)
     return poses
 

@@ -1,6 +1,7 @@
 """A bundle is seen as the draft that it was finished from."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from model.data.scene import drawn_scene
 from model.data.soup import Soup, draft_soup
 from model.data.stage import photographs, staged
 from tests.made import drafted, finished
-from tests.strategies import drawer_unit
+from tests.strategies import box_part, drawer_unit
 from tests.unit.model.data.small import CONFIG, written_bundle
 
 CPU = torch.device("cpu")
@@ -86,3 +87,42 @@ def test_the_family_of_a_foreign_object_decides_its_split(tmp_path):
 def test_a_folder_that_is_no_bundle_is_refused(tmp_path):
     with pytest.raises(ExportError, match=r"manifest\.json"):
         bundle_soup(tmp_path)
+
+
+BOXES = [
+    ((-0.2, -0.2, 0.4), (0.2, 0.2, 0.44)),
+    ((-0.2, -0.2, 0.0), (-0.16, -0.16, 0.4)),
+    ((0.16, -0.2, 0.0), (0.2, -0.16, 0.4)),
+    ((-0.2, 0.16, 0.0), (0.2, 0.2, 0.4)),
+]
+RUNS = [
+    {"leaf": "0_seat", "bodies": [0, 1]},
+    {"leaf": "1_legs", "bodies": [1, 2]},
+    {"leaf": "2_panel", "bodies": [3, 1]},
+]
+
+
+def _stool(dataset):
+    """Four bodies in one rigid part, of which the source makes three."""
+    provenance = {"source": {"dataset": dataset, "id": "stool"}, "fragments": {"base": RUNS}}
+    parts = (box_part("base", BOXES),)
+    return replace(drawer_unit(), parts=parts, joints=(), preconditions=(), provenance=provenance)
+
+
+def test_the_parts_of_a_static_mesh_are_those_that_its_file_names(tmp_path):
+    """They lay in the manifest alone, so that static pre-training saw one part an object. They
+    fill slots as fixed parts; the control is an object of which leaves are no parts."""
+    soup = bundle_soup(written_bundle(_stool("static"), tmp_path / "a"), tolerance=0.0)
+    assert soup.parts == ("base", "1_legs", "2_panel")
+    legs = np.array([np.min(BOXES[1:3], axis=(0, 1)), np.max(BOXES[1:3], axis=(0, 1))])
+    np.testing.assert_allclose(soup.bounds, [BOXES[0], legs, BOXES[3]], atol=1e-6)
+    assert np.bincount(soup.part).tolist() == [12, 24, 12]
+    for motion in ("rest", "states"):
+        scene = drawn_scene(soup, replace(CONFIG, motion=motion), Stream(4))
+        truth = scene.truth.arrays
+        assert truth["valid_P"].sum() == 3
+        assert not truth["type_P"].any()
+        assert np.array_equal(scene.poses, np.broadcast_to(np.eye(4), scene.poses.shape))
+    other = bundle_soup(written_bundle(_stool("urdf"), tmp_path / "b"), tolerance=0.0)
+    assert other.parts == ("base",)
+    np.testing.assert_array_equal(other.vertices, soup.vertices)
