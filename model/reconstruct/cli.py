@@ -69,6 +69,9 @@ class Reconstruct:
     refine: bool = True
     """Fit sides of boxes and states of joints to the silhouettes of all images; else they are as
     the network says."""
+    device: Literal["auto", "cpu", "cuda"] = "cpu"
+    """Where the network predicts and its fields become surfaces; auto takes a GPU if there is one.
+    """
 
 
 def reconstruct(argv: Sequence[str]) -> int:
@@ -116,6 +119,7 @@ def ordered(command: Reconstruct) -> run.Order:
         photos=command.colors == "photos",
         films=command.films,
         refine=command.refine,
+        device=command.device,
     )
 
 

@@ -36,6 +36,7 @@ from model.reconstruct.sight import Sphere, in_object, network_images, sphere_of
 from model.reconstruct.skin import PaintOver
 from model.reconstruct.surfaces import field_guess
 from model.training.art_file import load_art
+from model.training.distributed import device_named
 
 BUNDLE = "bundle"
 TURNTABLE = "turntable.gif"
@@ -59,6 +60,7 @@ class Order:
         photos: whether the colors come from the images where they show them, else from the field.
         films: whether GIFs and the reprojection are made.
         refine: whether boxes and states are fitted to the silhouettes.
+        device: where the network predicts and its fields are meshed: cpu, cuda or auto.
     """
 
     images: Path
@@ -73,6 +75,7 @@ class Order:
     photos: bool = True
     films: bool = True
     refine: bool = True
+    device: str = "cpu"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -192,6 +195,7 @@ def reconstruct(order: Order, advance: Callable[[str], None]) -> Outcome:
 def made_object(order: Order, watch: Stopwatch) -> Made:
     """What the network predicts of the images, as an object; nothing is written."""
     art, config, _ = load_art(order.checkpoint)
+    art = art.to(device_named(order.device))
     watch.lap("checkpoint")
     rig = read_rig(order.cameras, order.images)
     capture, first = seen_object(order, rig)
