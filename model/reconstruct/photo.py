@@ -2,7 +2,8 @@
 look.
 
 A field's colors are as coarse as its planes; the photographs are not. Where no camera sees a point,
-the field's color stands.
+it takes the color of what is seen beside it on the same part and looks the same way, such as around
+an edge; farther away the field's color stands.
 """
 
 from collections.abc import Mapping
@@ -12,6 +13,8 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
+from scipy.ndimage import minimum_filter
+from scipy.spatial import cKDTree
 
 from artgen.articulation.kinematics import forward_kinematics
 from artgen.articulation.types import ArticulatedObject, State
@@ -21,10 +24,22 @@ from artgen.core.transform import apply, inverted
 Bytes = NDArray[np.uint8]
 SQUARE = 3.0
 """Power of the cosine between view and normal by which photographs count."""
+OPAQUE = 200
+"""Alpha of what is foreground, of 255."""
 FLATTEST = 0.15
 """Cosine below which a photograph says nothing."""
 DOUBT = 1e-3
 """Weight of the field's color beside the photographs'."""
+RIM = 0.01
+"""What a pixel counts that touches the background, which it may have mixed into its color."""
+SEEN = 0.02
+"""Weight of all photographs above which a point counts as seen."""
+BESIDE = 0.1
+"""Diagonals of a part over which color spreads to what is not seen."""
+TURNED = 1.2
+"""The same for normals that differ by one: over 49 degrees nothing spreads."""
+SPREAD_FROM = 6
+"""Points that are seen, whose colors an unseen one takes, the nearer the more."""
 LIFT = 2e-3
 """Share of the distance to the camera by which a point may lie behind what is seen first."""
 
@@ -49,6 +64,7 @@ class PhotoColors:
 
     def __init__(self, obj: ArticulatedObject, photos: list[Photo]) -> None:
         self._photos = photos
+        self._inner = [minimum_filter(photo.rgba[..., 3], 3) > OPAQUE for photo in photos]
         self._poses = [
             forward_kinematics(obj.base.name, obj.joints, photo.state) for photo in photos
         ]
@@ -59,11 +75,32 @@ class PhotoColors:
         have where no photograph shows them."""
         total = DOUBT * rgb
         weight = np.full((len(points), 1), DOUBT)
-        for photo, poses, scene in zip(self._photos, self._poses, self._scenes, strict=True):
-            share, color = _seen(photo, poses[part], scene, points, normals)
+        every = zip(self._photos, self._inner, self._poses, self._scenes, strict=True)
+        for photo, inner, poses, scene in every:
+            share, color = _seen(photo, inner, poses[part], scene, points, normals)
             total = total + share[:, None] * color
             weight = weight + share[:, None]
-        return np.asarray(total / weight)
+        return spread(points, normals, np.asarray(total / weight), weight[:, 0] - DOUBT > SEEN)
+
+
+def spread(points: Floats, normals: Floats, rgb: Floats, seen: NDArray[np.bool_]) -> Floats:
+    """(N, 3) colors of the points of a part; those that are not seen fade, with distance and with
+    the turn of their normals, from what is seen nearby to their own."""
+    if not seen.any() or seen.all():
+        return rgb
+    reach = BESIDE * float(np.linalg.norm(np.ptp(points, axis=0)))
+    places = np.concatenate([points / max(reach, 1e-9), TURNED * normals], axis=1)
+    count = min(SPREAD_FROM, int(seen.sum()))
+    off, index = cKDTree(places[seen]).query(places[~seen], k=count, distance_upper_bound=1.0)
+    off, index = off.reshape(-1, count), index.reshape(-1, count)
+    near = np.isfinite(off)
+    shares = np.where(near, 1.0 / np.maximum(off, 1e-3), 0.0)
+    beside = np.einsum("nk,nkc->nc", shares, rgb[seen][np.where(near, index, 0)])
+    beside /= np.maximum(shares.sum(axis=1, keepdims=True), 1e-9)
+    own = np.minimum(off[:, :1], 1.0) ** 2
+    found = rgb.copy()
+    found[~seen] = own * rgb[~seen] + (1.0 - own) * beside
+    return found
 
 
 def _scene(obj: ArticulatedObject, poses: Mapping[str, Floats]) -> EmbreeScene:
@@ -74,9 +111,18 @@ def _scene(obj: ArticulatedObject, poses: Mapping[str, Floats]) -> EmbreeScene:
 
 
 def _seen(
-    photo: Photo, object_from_rest: Floats, scene: EmbreeScene, points: Floats, normals: Floats
+    photo: Photo,
+    inner: NDArray[np.bool_],
+    object_from_rest: Floats,
+    scene: EmbreeScene,
+    points: Floats,
+    normals: Floats,
 ) -> tuple[Floats, Floats]:
-    """(N,) weight of a photograph for points, 0 where they are hidden, and (N, 3) its colors."""
+    """(N,) weight of a photograph for points, 0 where they are hidden, and (N, 3) its colors.
+
+    Args:
+        inner: (H, W) whether no background touches a pixel.
+    """
     placed = apply(object_from_rest, points)
     eye = inverted(photo.camera_from_object)[:3, 3]
     ways = placed - eye
@@ -90,13 +136,14 @@ def _seen(
     height, width = photo.rgba.shape[:2]
     good = (local[:, 2] > 1e-6) & (facing > FLATTEST)
     good &= (column >= 0) & (column < width) & (row >= 0) & (row < height)
-    good[good] &= photo.rgba[row[good], column[good], 3] > 200
+    good[good] &= photo.rgba[row[good], column[good], 3] > OPAQUE
     near = np.flatnonzero(good)
     origins = np.broadcast_to(eye.astype(np.float32), (len(near), 3))
     rays = ways[near].astype(np.float32)
     reach = scene.run(np.ascontiguousarray(origins), rays, query="DISTANCE")
     good[near] = reach >= distance[near] * (1.0 - LIFT)
     weight = np.where(good, np.maximum(facing, 0.0) ** SQUARE, 0.0)
+    weight[good] *= np.where(inner[row[good], column[good]], 1.0, RIM)
     color = np.zeros((len(points), 3))
     color[good] = photo.rgba[row[good], column[good], :3] / 255.0
     return weight, color

@@ -8,7 +8,7 @@ from artgen.geometry.normals import face_vectors
 from model.reconstruct.assemble import Assembled
 from model.reconstruct.capture import Capture
 from model.reconstruct.draw import Painter
-from model.reconstruct.photo import DOUBT, PhotoColors
+from model.reconstruct.photo import BESIDE, DOUBT, TURNED, PhotoColors, spread
 from model.reconstruct.run import photos
 from model.reconstruct.skin import colored
 from tests.unit.model.reconstruct.perfect import COLORS
@@ -64,6 +64,42 @@ def test_hidden_faces_are_not_painted_through(perfect: Assembled, capture: Captu
     hidden = np.array([[0.0, high[1] + 0.02, (low[2] + high[2]) / 2.0 - 0.06]])
     found = paint("base", hidden, np.array([[0.0, -1.0, 0.0]]), gray(hidden))
     assert np.array_equal(found, gray(hidden))
+
+
+def test_color_spreads_around_an_edge_and_no_farther() -> None:
+    """A strip 1 m long whose left half is seen, white: beside it points are white, at half of the
+    reach a quarter their own gray, beyond the reach gray; so are those that look elsewhere."""
+    x = np.linspace(0.0, 1.0, 201)
+    points = np.stack([x, 0.0 * x, 0.0 * x], axis=1)
+    up, down = np.tile([0.0, 0.0, 1.0], (201, 1)), np.tile([0.0, 0.0, -1.0], (201, 1))
+    seen = x <= 0.5
+    rgb = np.where(seen[:, None], np.ones((201, 3)), GRAY)
+    found = spread(points, up, rgb, seen)
+    assert np.array_equal(found[seen], rgb[seen])
+    assert np.abs(found[101] - 1.0).max() <= (1.0 - GRAY) * 0.05**2 + 1e-12  # 5 mm of 100
+    half = int(np.argmin(np.abs(x - 0.5 - BESIDE / 2.0)))
+    assert np.abs(found[half] - (1.0 - 0.25 * (1.0 - GRAY))).max() <= 1e-9
+    assert np.array_equal(found[x > 0.5 + BESIDE + 1e-9], rgb[x > 0.5 + BESIDE + 1e-9])
+    assert TURNED * 2.0 > 1.0
+    away = spread(points, np.where(seen[:, None], up, down), rgb, seen)
+    assert np.array_equal(away, rgb)
+
+
+def test_pixels_beside_the_background_do_not_bleed(perfect: Assembled, capture: Capture) -> None:
+    """A red rim one pixel wide, as blurred edges have, leaves the door's colors as they were."""
+    edge = capture.rgba[..., 3] > 200
+    inner = edge.copy()
+    for axis in (2, 3):
+        for step in (-1, 1):
+            inner &= np.roll(edge, step, axis=axis)
+    red = capture.rgba.copy()
+    red[edge & ~inner] = (255, 0, 0, 255)
+    clean, bled = (
+        painted(perfect, dataclasses.replace(capture, rgba=rgba)).color.astype(float)
+        for rgba in (capture.rgba, red)
+    )
+    changed = np.abs(clean - bled).max(axis=-1) > 40.0
+    assert changed.mean() <= 0.01
 
 
 def test_a_painter_without_its_lamp_shows_the_image(perfect: Assembled) -> None:
