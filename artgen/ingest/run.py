@@ -1,6 +1,5 @@
 """A run over many objects: processes side by side, resumable, one outcome each."""
 
-import dataclasses
 import json
 import os
 from collections.abc import Iterator, Sequence
@@ -9,9 +8,10 @@ from typing import Any
 
 from artgen import __version__
 from artgen.core.errors import UsageError
-from artgen.core.jsonio import content_hash, plain, write_json
+from artgen.core.jsonio import content_hash, file_hash, plain, write_json
 from artgen.ingest.found import Found, named
 from artgen.ingest.options import Options
+from artgen.ingest.partnet.folder import annotation_digest
 from artgen.ingest.task import IngestTask, Kind, Outcome, ingest, refused
 from artgen.pipeline import Toolbox
 from artgen.pool import run_in_processes
@@ -104,9 +104,24 @@ def record_path(folder: RunFolder, asset_id: str) -> Path:
 
 
 def write_record(folder: RunFolder, task: IngestTask, outcome: Outcome, settings: str) -> None:
-    """Keep an outcome; `settings` is a hash of all that it depends on but the source's files."""
-    entry = {"settings": settings, **_places(task), "outcome": plain(outcome)}
+    """Keep an outcome; `settings` is a hash of all that it depends on but the source's files, of
+    which those that say what the object is are hashed beside."""
+    entry = {
+        "settings": settings,
+        **_places(task),
+        "read": read_digest(task),
+        "outcome": plain(outcome),
+    }
     write_json(record_path(folder, task.asset_id), entry)
+
+
+def read_digest(task: IngestTask) -> str | None:
+    """Of the file that an object is read from, or of its folder's annotation; None where it cannot
+    be read."""
+    try:
+        return annotation_digest(task.path) if task.path.is_dir() else file_hash(task.path)
+    except OSError:
+        return None
 
 
 def _places(task: IngestTask) -> dict[str, str | None]:
@@ -118,7 +133,7 @@ def kept_outcome(folder: RunFolder, task: IngestTask, settings: str) -> Outcome 
     a refusal.
 
     Raises:
-        UsageError: it was made with other settings, or from another place.
+        UsageError: it was made with other settings, from another place, or of another annotation.
     """
     path = record_path(folder, task.asset_id)
     if not path.exists():
@@ -136,5 +151,12 @@ def kept_outcome(folder: RunFolder, task: IngestTask, settings: str) -> Outcome 
             f"{folder.root}: {task.asset_id} was ingested with other settings or from another "
             "place; choose a new --out (nothing is overwritten)"
         )
-    home = folder.assets / outcome.category / task.asset_id / "manifest.json"
-    return dataclasses.replace(outcome) if home.exists() else None
+    home = folder.assets / outcome.category / task.asset_id
+    if not (home / "manifest.json").exists():
+        return None
+    if "read" in stated and stated["read"] != read_digest(task):
+        raise UsageError(
+            f"{task.path}: has changed since {task.asset_id} was made of it; remove {home} to have "
+            "it made anew, or choose a new --out (nothing is overwritten)"
+        )
+    return outcome

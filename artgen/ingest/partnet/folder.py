@@ -76,7 +76,7 @@ def read_partnet(root: Path) -> ForeignObject:
         dataset=OWN_EXPORT if note else DATASET,
         id=root.absolute().name,
         category=meta.category or named,
-        digest=_digest(root),
+        digest=annotation_digest(root),
         parts=parts,
         joints=tuple(_joint(node, tree) for node in tree.movers),
         object_from_source=np.array(OBJECT_FROM_MESH),
@@ -118,7 +118,7 @@ def _note(root: Path) -> Mapping[str, Any]:
     return stated if ours else {}
 
 
-def _digest(root: Path) -> str:
+def annotation_digest(root: Path) -> str:
     """Of the annotation: what says which object this is, wherever its folder lies."""
     return content_hash([file_hash(root / name) for name in REQUIRED[:3]])
 

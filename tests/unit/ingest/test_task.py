@@ -134,3 +134,17 @@ def test_finished_objects_are_kept_and_refused_ones_tried_again(tmp_path: Path) 
         kept_outcome(folder, dataclasses.replace(task, root=tmp_path), "hash")
     record_path(folder, "pm_x").write_text("{")
     assert kept_outcome(folder, task, "hash") is None
+
+
+def test_what_was_made_of_another_annotation_is_not_kept_in_silence(tmp_path: Path) -> None:
+    """A folder that was mended came out of the next run as it had been."""
+    folder, task = RunFolder(tmp_path / "out"), task_at(cabinet().write(tmp_path / "1"))
+    home = folder.assets / "cabinet" / "pm_x"
+    home.mkdir(parents=True)
+    (home / "manifest.json").write_text("{}")
+    write_record(folder, task, outcome("valid"), "hash")
+    assert kept_outcome(folder, task, "hash") == outcome("valid")
+    annotation = task.path / "mobility_v2.json"
+    annotation.write_text(annotation.read_text() + "\n")
+    with pytest.raises(UsageError, match=rf"has changed since.*remove {home}"):
+        kept_outcome(folder, task, "hash")
