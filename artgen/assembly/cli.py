@@ -24,6 +24,7 @@ from artgen.assembly.run import (
     set_twins_aside,
 )
 from artgen.core.errors import UsageError, did_you_mean
+from artgen.export.thumbnails import write_thumbnails
 from artgen.pipeline import Outcome
 from artgen.progress import progress
 from artgen.run_folder import RunFolder, opened, run_log
@@ -120,6 +121,14 @@ class Assemble:
     kept at their width), texture coordinates corrected, woods, paints and metals drawn anew. Each
     object is validated like every asset. One that does not fit after other donors were tried is
     given up with its reason. Interrupted runs resume: object i depends on (library, seed, i) alone.
+
+    For example:
+
+    artgen assemble storage_furniture --count 20
+
+    artgen library build out/ingested --out out/library
+
+    artgen assemble storage_furniture --count 1000 --library out/library --out out/thousand
     """
 
     what: tyro.conf.Positional[str]
@@ -132,7 +141,7 @@ class Assemble:
     """A folder that `artgen library build` wrote; the embedded library if not given, which is built
     once under OUT/work."""
     out: Path = Path("out/assembled")
-    """Folder of the run; receives assets/assembled, failed/assembled and logs."""
+    """Folder of the run; receives assets/assembled, failed/assembled, contact_sheet.png, logs."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side; the result is the same for any number."""
 
@@ -159,6 +168,8 @@ def assemble(argv: Sequence[str]) -> int:
             for k in range(command.count)
         ]
         outcomes = make_objects(folder, tasks, workers=command.workers)
+        homes = [(task.asset_id, task.place(folder.assets)) for task in tasks]
+        write_thumbnails(folder.contact_sheet, homes)
         tell_outcomes(folder, outcomes)
     return 0 if any(outcome.status != "failed" for outcome in outcomes) else 1
 
@@ -211,4 +222,6 @@ def tell_outcomes(folder: RunFolder, outcomes: Sequence[Outcome]) -> None:
     )
     for message, count in Counter(outcome.message for outcome in failed).most_common(20):
         console.print(f"given up {count} x {message}", highlight=False, markup=False)
+    if folder.contact_sheet.exists():
+        console.print(f"pictures {folder.contact_sheet}", highlight=False)
     console.print(f"log {folder.logs / 'run.log'}", highlight=False)

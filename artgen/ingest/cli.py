@@ -14,6 +14,7 @@ from rich.console import Console
 
 from artgen.core.errors import UsageError, did_you_mean
 from artgen.core.licence import KNOWN
+from artgen.export.thumbnails import write_thumbnails
 from artgen.ingest.found import Found, found_files, found_folders
 from artgen.ingest.meshes.scenes import MESHES
 from artgen.ingest.options import GivenRest, Options
@@ -43,7 +44,8 @@ class Settings:
     paths: Annotated[tuple[Path, ...], tyro.conf.Positional] = ()
     """Folders or files; a folder of many is looked through."""
     out: Path = Path("out/ingested")
-    """Folder of the run: assets/<category>/<object>, failed/, ingest_report.json and .txt."""
+    """Folder of the run: assets/<category>/<object>, failed/, ingest_report.json and .txt,
+    contact_sheet.png."""
     meters_per_unit: float | None = None
     """Scale of all objects; by default what the source states, or a usual size of the category."""
     max_parts: int = 40
@@ -167,9 +169,13 @@ def run(command: Settings, kind: Kind, found: Sequence[Found], options: Options)
     with opened(command.out, seed=0, need_bytes=need) as folder:
         outcomes = ingest_all(folder, kind, found, options, workers=command.workers, show=progress)
         write_report(folder, outcomes, options.rests)
+        homes = [(o.asset_id, folder.assets / o.category / o.asset_id) for o in outcomes]
+        pictured = write_thumbnails(folder.contact_sheet, homes)
     console = Console(highlight=False, soft_wrap=True)
     console.print(table(outcomes, options.rests), markup=False, end="")
     console.print(f"report: {command.out / 'ingest_report.json'}", markup=False)
+    if pictured:
+        console.print(f"pictures: {folder.contact_sheet}", markup=False)
     return int(any(outcome.status == "refused" for outcome in outcomes))
 
 

@@ -24,6 +24,14 @@ class TrainData:
     `artgen train` ray-casts its images from such a library, on a GPU or a CPU, so that neither
     Blender nor rendered images are needed where a model is trained. An interrupted run resumes with
     the same command; the file is the same for any number of workers.
+
+    For example:
+
+    artgen train-data --count 6000
+
+    artgen train-data --categories laptop cabinet --count 500 --seed 7 --out small.npz
+
+    artgen train-data --count 0 --bundles out/assembled out/ingested --out mine.npz
     """
 
     categories: tuple[str, ...] = ()

@@ -35,15 +35,19 @@ class Reconstruct:
 
     For example:
 
-    artgen reconstruct examples/cabinet --cameras examples/cabinet/cameras.json --parts 4
+    artgen reconstruct examples/cabinet --parts 4
 
-    artgen reconstruct photos --masks masks --checkpoint art.safetensors
+    artgen reconstruct photos --cameras sparse/0 --masks masks --parts 3
+
+    Photographs of each state go into state_0/, state_1/ ... before COLMAP sees them, or their names
+    begin so. docs/reconstruct.md describes the formats.
     """
 
     images: Annotated[Path, tyro.conf.arg(metavar="IMAGES"), tyro.conf.Positional]
     """Folder of the images."""
     cameras: Path | None = None
-    """Camera file; IMAGES/cameras.json or IMAGES/transforms.json if not given."""
+    """Camera file, or COLMAP's folder; cameras.json, transforms.json or images.txt in IMAGES if not
+    given."""
     checkpoint: Path | None = None
     """A trained network (art.safetensors); the one that ships if not given."""
     parts: int | None = None
