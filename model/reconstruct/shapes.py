@@ -23,6 +23,9 @@ MOST_EMPTY = 0.3
 crumb of the field."""
 MOST_LOST = 0.05
 """Share of its volume that a part may gain or lose by one round of merging triangles."""
+LEAST_HOLLOW = 1e-10
+"""m3; a tenth of what validators call an overlap. A smaller hollow may be filled, whatever it was
+cut for."""
 ROUNDS = (1e-4, 2e-4, 4e-4, 8e-4)
 """m; within which triangles are merged in turn, until none is flat."""
 GRID = 1e-6
@@ -97,9 +100,15 @@ def _tidy(solid: Solid, tolerance: float, triangles: int, changes: list[str]) ->
     return whole
 
 
-def without_small_pieces(solid: Solid, share: float) -> tuple[Solid, int]:
+def without_small_pieces(
+    solid: Solid, share: float, *, hollow: float | None = None
+) -> tuple[Solid, int]:
     """The solid less its connected surfaces, outer or inner, that enclose less than a share of what
-    the largest does; and how many those are."""
+    the largest does; and how many those are.
+
+    Args:
+        hollow: m3 from which inner ones stay, however small their share; None for that share.
+    """
     mesh = solid.trimesh()
     faces, count = mesh.faces, len(mesh.vertices)
     ends = np.concatenate([faces[:, :2], faces[:, 1:]])
@@ -107,8 +116,11 @@ def without_small_pieces(solid: Solid, share: float) -> tuple[Solid, int]:
     pieces, label = connected_components(links, directed=False)
     a, b, c = mesh.triangles.transpose(1, 0, 2)
     sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))
-    size = np.abs(np.bincount(label[faces[:, 0]], weights=sixfold, minlength=pieces))
+    signed = np.bincount(label[faces[:, 0]], weights=sixfold, minlength=pieces)
+    size = np.abs(signed)
     kept = size >= share * size.max()
+    if hollow is not None:
+        kept |= signed <= -6.0 * hollow
     if kept.all():
         return solid, 0
     used, index = np.unique(faces[kept[label[faces[:, 0]]]], return_inverse=True)
@@ -143,14 +155,15 @@ def boxed(part: PartGuess) -> PartGuess:
 
 def mended(solid: Solid, tolerance: float) -> Solid:
     """The solid less pieces that booleans leave where surfaces nearly touch, and less triangles
-    that say nothing; its surface moves by `tolerance` m at most.
+    that say nothing; its surface moves by `tolerance` m at most. Hollows stay: what they were cut
+    for lies in them.
 
     Raises:
         GeometryError: nothing is left.
     """
     if solid.is_empty:
         raise GeometryError("a reconstructed part vanished under its neighbors")
-    whole, _ = without_small_pieces(solid, CRUMB**2)
+    whole, _ = without_small_pieces(solid, CRUMB**2, hollow=LEAST_HOLLOW)
     simple = whole.manifold.simplify(tolerance)
     return whole if simple.is_empty() else Solid(simple)
 

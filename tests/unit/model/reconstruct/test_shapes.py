@@ -73,3 +73,14 @@ def test_a_flat_triangle_is_merged_away() -> None:
 def test_nothing_left_is_an_error() -> None:
     with pytest.raises(GeometryError, match="vanished under its neighbors"):
         mended(BLOCK - BLOCK, 1e-4)
+
+
+def test_a_hollow_that_was_cut_for_another_part_stays() -> None:
+    """A knob of 2 cm within a base of 1 m: 8e-6 of its volume, far below what counts as a piece
+    when it sticks out, and 8,000 times what validators call an overlap when it is filled."""
+    base, knob = slab((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), slab((0.5, 0.5, 0.5), (0.52, 0.52, 0.52))
+    assert (mended(base - knob, 1e-4) & knob).volume <= 1e-12
+    chip = slab((2.0, 0.0, 0.0), (2.02, 0.02, 0.02))
+    assert mended(base | chip, 1e-4).bounds[1, 0] == 1.0
+    tiny = slab((0.5, 0.5, 0.5), (0.5002, 0.5002, 0.5002))
+    assert mended(base - tiny, 1e-5).volume == 1.0
