@@ -34,7 +34,7 @@ SMALLEST = 2e-14
 """m2; twice what validators ask of a triangle."""
 LEAST_SIDE = 0.002
 """m; a predicted box is not thinner."""
-ROUND = 0.4
+ROUND = 0.1
 """Radius of a rounded box's edges as a share of half its shortest side."""
 TURNS = np.linspace(0.0, np.pi / 2.0, 4)
 ROUNDING = np.array(
