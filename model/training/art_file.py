@@ -31,7 +31,8 @@ class ModelCard:
     """Where weights come from and what they can do.
 
     Attributes:
-        data: what it was trained on: categories, seeds, objects, sources.
+        data: what it was trained on: categories, seeds, objects, sources; `begun_with` has the same
+            of the file whose weights it began with.
         steps: updates.
         hours: of training, wall clock.
         hardware: what it was trained on.

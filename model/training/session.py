@@ -86,10 +86,11 @@ def run_session(
             settings = {"config": plain(config), "material": plain(material)}
             _claim(folder / "config.json", settings, team, "other settings")
             source = _opened(material, folder, config, team, show)
-            art, perceptual = _network(config, start), _perceptual(config, team)
+            art, begun_with = _network(config, start)
+            perceptual = _perceptual(config, team)
             inputs = {
                 **material_hashes(material, folder),
-                "start": start and file_hash(start),
+                "start": begun_with and begun_with["sha256"],
                 "encoder": art.encoder_identity,
                 "perceptual": perceptual is not None,
             }
@@ -98,7 +99,7 @@ def run_session(
             resume(run, folder)
             supply = _supply(source, config, team)
             train(run, supply, folder=folder, show=show, draw=_draw(art, source, config, team))
-            card = _card(source, config, material, run)
+            card = _card(source, config, material, run, begun_with)
             _export(run, art, config, card, folder / RESULT)
             wait_for_all(team)
             if team.leads:
@@ -129,13 +130,16 @@ def _opened(
     return opened(material, folder, config.data)
 
 
-def _network(config: Config, start: Path | None) -> Art:
+def _network(config: Config, start: Path | None) -> tuple[Art, Mapping[str, Any] | None]:
+    """The network, and what a card says of the file whose weights it begins with."""
     torch.manual_seed(config.train.seed)
     art = Art(config.model)
-    if start is not None:
-        begun_from, _, _ = load_art(start)
-        load_weights(art, trained_state(begun_from), start)
-    return art
+    if start is None:
+        return art, None
+    begun_from, _, card = load_art(start)
+    load_weights(art, trained_state(begun_from), start)
+    before = {"data": card.data, "steps": card.steps, "hours": card.hours, "on": card.hardware}
+    return art, {"file": start.name, "sha256": file_hash(start), **before}
 
 
 def _perceptual(config: Config, team: Team) -> FeatureDistance | None:
@@ -188,7 +192,13 @@ def _draw(art: Art, source: Source[Any], config: Config, team: Team) -> Draw | N
     return draw
 
 
-def _card(source: Source[Any], config: Config, material: Material, run: Run) -> ModelCard:
+def _card(
+    source: Source[Any],
+    config: Config,
+    material: Material,
+    run: Run,
+    begun_with: Mapping[str, Any] | None,
+) -> ModelCard:
     return ModelCard(
         data={
             "made": stated_origin(material, config.data.seed),
@@ -200,6 +210,7 @@ def _card(source: Source[Any], config: Config, material: Material, run: Run) -> 
             "items": len(source),
             "left_out": len(source.left_out),
             "seen": run.cursor,
+            "begun_with": begun_with,
         },
         steps=run.step,
         hours=run.seconds / 3600.0,

@@ -8,6 +8,7 @@ import torch
 
 import model.training.session
 from artgen.core.errors import UsageError
+from artgen.core.jsonio import file_hash
 from artgen.progress import silent
 from model.batch import Batch
 from model.data.kept import Kept
@@ -90,6 +91,20 @@ def test_other_first_weights_do_not_resume(tmp_path: Path, material: Material) -
     session(material, tmp_path / "run", short, start=start)
     with pytest.raises(UsageError, match="other data or weights: start .*, now None"):
         session(material, tmp_path / "run", short)
+
+
+def test_the_card_says_what_a_run_began_with(tmp_path: Path, material: Material) -> None:
+    first = session(material, tmp_path / "first", changed(TINY, ["train.steps=1"]))
+    two = changed(TINY, ["train.steps=2"])
+    cards = [
+        load_art(path)[2] for path in (first, session(material, tmp_path / "run", two, start=first))
+    ]
+    assert cards[0].data["begun_with"] is None
+    begun = cards[1].data["begun_with"]
+    assert isinstance(begun, dict)
+    assert begun["sha256"] == file_hash(first)
+    assert (begun["steps"], begun["data"]) == (1, cards[0].data)
+    assert cards[1].steps == 2
 
 
 PERCEPTUAL = changed(
