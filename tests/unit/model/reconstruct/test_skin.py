@@ -6,7 +6,7 @@ import numpy as np
 
 from artgen.core.mesh import Floats
 from artgen.geometry.solid import slab
-from model.reconstruct.shapes import boxed, shape_of
+from model.reconstruct.shapes import ROUND, boxed, shape_of
 from model.reconstruct.skin import moved_color, nearest_part, part_color
 from tests.unit.model.reconstruct.perfect import COLORS, part
 
@@ -43,9 +43,14 @@ def test_a_moved_part_takes_its_colors_along() -> None:
 
 
 def test_a_boxed_part_fills_its_box_with_round_edges() -> None:
-    """Edges of radius r = 0.08 m on a free length of a = 0.24 m take (12 - 3 pi) a r^2, and the
-    corners (8 - 4 pi / 3) r^3: 9.2 % of the box. Three facets for each quarter of a circle take
-    0.0354 r^2 more of an edge, 1.0 %, and of the corners less than that."""
+    """Edges of radius r on a free length a take (12 - 3 pi) a r^2, the corners (8 - 4 pi / 3) r^3.
+    Three facets for each quarter of a circle take 0.0354 r^2 more of an edge, and of the corners
+    less than of the edges, as r < a."""
+    side = 0.4
+    r = ROUND * side / 2.0
+    a = side - 2.0 * r
+    taken = (12.0 - 3.0 * np.pi) * a * r**2 + (8.0 - 4.0 * np.pi / 3.0) * r**3
+    facets = 12.0 * 0.0354 * r**2 * a
     found = shape_of(boxed(BLOCK), tolerance=1e-4, triangles=1000).solid
     assert np.abs(found.bounds - BLOCK.box).max() <= 1e-12
-    assert 1.0 - 0.112 <= found.volume / 0.4**3 <= 1.0 - 0.092
+    assert taken <= side**3 - found.volume <= taken + 2.0 * facets
