@@ -30,24 +30,24 @@ def both(tmp_path: Path) -> tuple[Path, Path]:
 @pytest.mark.parametrize("scenes", [None, 1, 5])
 @pytest.mark.parametrize(("share", "count"), [(None, 25), (0.1, 10), (0.01, 1), (0.99, 99)])
 def test_shards_come_in_the_share_that_is_asked_for(
-    both: tuple[Path, Path], scenes: int | None, share: float | None, count: int
+    both: tuple[Path, Path], tmp_path: Path, scenes: int | None, share: float | None, count: int
 ) -> None:
     """`artgen train` had no option for it, and scenes that are kept forgot all shares."""
     library, shards = both
     material = Material(
         library=library, shards=(shards,), split=None, scenes=scenes, shard_share=share
     )
-    source = opened(material, Path("run"), CONFIG)
+    source = opened(material, tmp_path, CONFIG)
     assert len(source) == 4 * (scenes or 1)
     row = source.order(3)
     places = [row.at(place) for place in range(BLOCK)]
     assert sum(place < (scenes or 1) for place in places) == count
 
 
-def test_kept_scenes_of_both_come_as_batches(both: tuple[Path, Path]) -> None:
+def test_kept_scenes_of_both_come_as_batches(both: tuple[Path, Path], tmp_path: Path) -> None:
     library, shards = both
     material = Material(library=library, shards=(shards,), split=None, scenes=2, shard_share=0.5)
-    supply = batches(opened(material, Path("run"), CONFIG), CONFIG)
+    supply = batches(opened(material, tmp_path, CONFIG), CONFIG)
     shown = {name for _ in range(4) for name in next(supply).asset_ids}
     assert shown == {"laptop_000000", *(f"cabinet_{k:06d}" for k in range(3))}
 
