@@ -17,16 +17,12 @@ from artgen.cli import run_command
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import write_bytes
 from artgen.export import Bundle, read_bundle
-from artgen.pipeline import AssetTask, Outcome, check_kept, plan, run_tasks
-from artgen.progress import progress
+from artgen.pipeline import BYTES_PER_ASSET, Outcome, build_assets, plan
 from artgen.rules import load_rule, parse_override, rule_names
-from artgen.run_folder import RunFolder, opened, run_log
+from artgen.run_folder import RunFolder, opened
 from artgen.system_libraries import check_libraries
 from artgen.validate import bundle_subject
 from artgen.validate.interior import open_interiors
-
-BYTES_PER_ASSET = 5_000_000
-"""A bundle stays under 3 MB; its sample and its share of the shards add about 1 MB."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,26 +87,6 @@ def generate(argv: Sequence[str]) -> int:
         write_summary(folder)
         announce(folder, outcomes, rendered=command.render)
     return max(code, int(any(outcome.status == "failed" for outcome in outcomes)))
-
-
-def build_assets(folder: RunFolder, tasks: Sequence[AssetTask], *, workers: int) -> list[Outcome]:
-    """Make what is missing; one line per asset and stage goes to logs/run.log."""
-    kept = check_kept(folder, tasks)
-    outcomes = [
-        Outcome(asset_id=task.asset_id, status="kept") for task in tasks if task.asset_id in kept
-    ]
-    missing = [task for task in tasks if task.asset_id not in kept]
-    if not missing:
-        return outcomes
-    record = run_log(folder)
-    with progress("assets", len(missing)) as advance:
-        for outcome in run_tasks(folder, missing, workers=min(workers, len(missing))):
-            for stage, seconds in outcome.seconds.items():
-                record.info("%s %s %.2f s", outcome.asset_id, stage, seconds)
-            record.info("%s %s %s", outcome.asset_id, outcome.status, outcome.message)
-            outcomes.append(outcome)
-            advance(f"{outcome.asset_id} {outcome.status}")
-    return outcomes
 
 
 def render_and_pack(command: Generate) -> int:

@@ -23,12 +23,15 @@ from artgen.finish import RawBody, finish
 from artgen.finish_jobs import RoundJob, read_bodies, write_bodies
 from artgen.generators import load_builder
 from artgen.pool import run_in_processes
+from artgen.progress import progress
 from artgen.rules import CategoryRule, Override, load_rule, overridden, sample
-from artgen.run_folder import RunFolder, settled
+from artgen.run_folder import RunFolder, run_log, settled
 from artgen.textures.library import TextureLibrary
 from artgen.validate import validate_bundle
 from artgen.worker import BlenderWorker
 
+BYTES_PER_ASSET = 5_000_000
+"""A bundle stays under 3 MB; its sample and its share of the shards add about 1 MB."""
 ROUND_TIMEOUT_S = 60.0
 ASSET_TIMEOUT_S = 600.0
 """An asset takes 3 to 5 s; a process that hangs for this long is killed and its asset set aside."""
@@ -287,3 +290,23 @@ def run_tasks(folder: RunFolder, tasks: Sequence[AssetTask], *, workers: int) ->
         timeout_s=ASSET_TIMEOUT_S,
         lost=lambda task, cause: Outcome(asset_id=task.asset_id, status="failed", message=cause),
     )
+
+
+def build_assets(folder: RunFolder, tasks: Sequence[AssetTask], *, workers: int) -> list[Outcome]:
+    """Make what is missing; one line per asset and stage goes to logs/run.log."""
+    kept = check_kept(folder, tasks)
+    outcomes = [
+        Outcome(asset_id=task.asset_id, status="kept") for task in tasks if task.asset_id in kept
+    ]
+    missing = [task for task in tasks if task.asset_id not in kept]
+    if not missing:
+        return outcomes
+    record = run_log(folder)
+    with progress("assets", len(missing)) as advance:
+        for outcome in run_tasks(folder, missing, workers=min(workers, len(missing))):
+            for stage, seconds in outcome.seconds.items():
+                record.info("%s %s %.2f s", outcome.asset_id, stage, seconds)
+            record.info("%s %s %s", outcome.asset_id, outcome.status, outcome.message)
+            outcomes.append(outcome)
+            advance(f"{outcome.asset_id} {outcome.status}")
+    return outcomes

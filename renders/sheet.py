@@ -4,7 +4,7 @@ import io
 import math
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
@@ -15,7 +15,6 @@ from PIL import Image
 
 from artgen.articulation.kinematics import forward_kinematics
 from artgen.articulation.states import obeying, required_state, travel
-from artgen.cli import run_command
 from artgen.core.camera import framed, orbit_direction
 from artgen.core.errors import UsageError
 from artgen.core.jsonio import plain, write_bytes
@@ -23,10 +22,13 @@ from artgen.core.mesh import Floats
 from artgen.export import Bundle, read_bundle
 from artgen.export.layout import GLB
 from artgen.imaging import Bytes, display, read_exr
+from artgen.pipeline import BYTES_PER_ASSET, AssetTask, Outcome, build_assets, plan
 from artgen.progress import progress
 from artgen.render_job import RenderJob, Shot
-from artgen.rules import load_rule
+from artgen.rules import parse_override
+from artgen.run_folder import RunFolder, opened
 from artgen.studio import portrait_rig
+from artgen.system_libraries import check_libraries
 from artgen.transport import needed_transport
 from artgen.worker import BlenderWorker
 from renders.contact_sheet import grid, labeled, on_paper
@@ -77,41 +79,67 @@ class Sheet:
 def sheet(argv: Sequence[str]) -> int:
     """A picture of many seeds of a category, closed and open."""
     command = tyro.cli(Sheet, args=list(argv), prog="artgen sheet")
-    if not command.categories or min(command.count, command.paths) < 1 or command.size < 16:
+    least = min(command.count, command.paths, command.workers)
+    if not command.categories or command.size < 16 or least < 1:
         raise UsageError(
             f"artgen sheet: found {len(command.categories)} categories, --count {command.count}, "
-            f"--paths {command.paths} and --size {command.size}; expected at least 1, 1, 1 and 16"
+            f"--paths {command.paths}, --workers {command.workers} and --size {command.size}; "
+            "expected at least 1 of each and --size 16"
         )
-    for category in command.categories:
-        load_rule(category)
+    check_libraries()
+    tasks = plan(
+        command.categories,
+        command.count * len(command.categories),
+        command.seed,
+        overrides=[parse_override(word) for word in command.set],
+    )
     with tempfile.TemporaryDirectory() as scratch:
-        run = command.work or Path(scratch) / "run"
-        code = run_command("generate", _generation(command, run))
-        with BlenderWorker(Path(scratch) / "blender.log", threads=os.cpu_count() or 1) as worker:
-            for category in command.categories:
-                _write_sheet(category, command, run / "assets" / category, worker)
-    return code
+        home = command.work or Path(scratch) / "run"
+        with opened(home, seed=command.seed, need_bytes=len(tasks) * BYTES_PER_ASSET) as run:
+            outcomes = build_assets(run, tasks, workers=command.workers)
+            failed = {
+                outcome.asset_id: outcome for outcome in outcomes if outcome.status == "failed"
+            }
+            _tell_failed(failed.values())
+            places = _places([task for task in tasks if task.asset_id not in failed], run)
+            _write_sheets(command, places, Path(scratch) / "blender.log")
+    if command.work:
+        print(f"assets: {command.work}")  # noqa: T201
+    return int(bool(failed))
 
 
-def _generation(command: Sheet, run: Path) -> list[str]:
-    return [
-        *("--categories", *command.categories),
-        *("--count", str(command.count * len(command.categories))),
-        *("--seed", str(command.seed), "--out", str(run), "--workers", str(command.workers)),
-        *(("--set", *command.set) if command.set else ()),
-        "--no-render",
-    ]
+def _tell_failed(outcomes: Iterable[Outcome]) -> None:
+    """A line for each asset that did not pass."""
+    for outcome in outcomes:
+        print(f"failed {outcome.asset_id}: {outcome.message}")  # noqa: T201
 
 
-def _write_sheet(category: str, command: Sheet, assets: Path, worker: BlenderWorker) -> None:
+def _places(tasks: Sequence[AssetTask], run: RunFolder) -> Mapping[str, Sequence[Path]]:
+    """Category to the folders of its assets."""
+    places: dict[str, list[Path]] = {}
+    for task in tasks:
+        places.setdefault(task.category, []).append(task.place(run.assets))
+    return places
+
+
+def _write_sheets(command: Sheet, places: Mapping[str, Sequence[Path]], log: Path) -> None:
+    """A picture of each category of which something passed."""
+    if places:
+        with BlenderWorker(log, threads=os.cpu_count() or 1) as worker:
+            for category, folders in places.items():
+                _write_sheet(category, command, folders, worker)
+    for category in command.categories:
+        if category not in places:
+            print(f"no sheet of {category}: none of its {command.count} passed")  # noqa: T201
+
+
+def _write_sheet(
+    category: str, command: Sheet, folders: Sequence[Path], worker: BlenderWorker
+) -> None:
     """`<out>/<category>.jpg` of the assets that passed."""
-    folders = [assets / f"{index:06d}" for index in range(command.count)]
-    whole = [folder for folder in folders if (folder / "manifest.json").is_file()]
-    if not whole:
-        raise UsageError(f"{assets}: no {category} passed; see the messages above")
     cells = []
-    with progress(category, len(whole)) as advance:
-        for folder in whole:
+    with progress(category, len(folders)) as advance:
+        for folder in folders:
             bundle = read_bundle(folder)
             pictures = pictures_of(bundle, size=command.size, paths=command.paths, worker=worker)
             cells.append(labeled(bundle.asset_id, pictures))
