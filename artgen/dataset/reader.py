@@ -1,5 +1,6 @@
 """Reading shards: samples in order, or any one by position or asset id; every byte is checked."""
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -164,10 +165,7 @@ class ShardDataset:
         if "dataset.json" in sizes:
             check_contents(self._store, manifests, prefix)
         if not names:
-            raise ShardError(
-                f"{self._store.where()}: holds no {split or 'complete'} shard; write some with "
-                "`artgen shard`"
-            )
+            raise ShardError(_nothing_to_read(folder, sorted(sizes), split))
         self._items = tuple((shard, name) for shard in manifests for name in shard.ids)
         self._position = {name: i for i, (_, name) in enumerate(self._items)}
         self._open: dict[str, OpenShard] = {}
@@ -223,3 +221,22 @@ class ShardDataset:
         if asset_id not in self._position:
             raise ShardError(f"no shard holds {asset_id}; see the catalog for what is packed")
         return self._position[asset_id]
+
+
+def _nothing_to_read(folder: Path | str, files: Sequence[str], split: str | None) -> str:
+    """Why a place offers no sample, and what would help there."""
+    inner = None if "://" in str(folder) else Path(folder) / "shards"
+    kinds = Counter(name.partition("-")[0] for name in files if name.endswith(".tar"))
+    wanted = f"{folder}: holds no {split or 'complete'} shard"
+    if kinds:
+        held = " and ".join(f"{count} of {kind}" for kind, count in sorted(kinds.items()))
+        return (
+            f"{wanted}, but {held}; each asset's name decides its split (8 of 10 are train, 1 val, "
+            "1 test), so a few assets may all miss one: make more of them, then render and "
+            "`artgen shard` again"
+        )
+    if inner is not None and any(inner.glob("*.tar")):
+        return f"{wanted}; those of this run lie in {inner}: name that folder"
+    if inner is not None and not inner.parent.is_dir():
+        return f"{folder}: is no folder; name one of shards, such as OUT/shards of a run"
+    return f"{wanted}; write some with `artgen shard`"

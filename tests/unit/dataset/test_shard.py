@@ -90,6 +90,22 @@ def test_a_slotted_sample_comes_back(tmp_path):
     assert padded.valid.tolist() == [True] * 5 + [False] * 3
 
 
+def test_a_place_without_the_samples_asked_for_says_what_is_there_and_what_helps(intact, tmp_path):
+    """Found: where all samples had fallen into val and test, the advice was to run what had just
+    been run, `artgen shard`; and of the folder of a run, whose shards lie one further down."""
+    message = "holds no test shard, but 1 of train; each .* make more of them"
+    with pytest.raises(ShardError, match=message):
+        ShardDataset(intact.parent, split="test")
+    with pytest.raises(ShardError, match="holds no train shard; write some with `artgen shard`"):
+        ShardDataset(tmp_path, split="train")
+    (tmp_path / "run").mkdir()
+    shutil.copytree(intact.parent, tmp_path / "run" / "shards")
+    with pytest.raises(ShardError, match=f"lie in {tmp_path / 'run' / 'shards'}: name that"):
+        ShardDataset(tmp_path / "run")
+    with pytest.raises(ShardError, match="is no folder; name one of shards"):
+        ShardDataset(tmp_path / "nowhere", split="train")
+
+
 def test_some_states_and_views_are_read_as_the_whole_would_give_them(intact):
     dataset = ShardDataset(intact.parent)
     whole, some = dataset[2], dataset.load(2, states=[1], views=[1, 0])
@@ -107,8 +123,6 @@ def test_the_dataset_is_a_sequence_by_asset_id(intact):
     assert dataset.ids == IDS
     assert [dataset[dataset.position(name)].meta.asset_id for name in IDS] == list(IDS)
     assert len(dataset) == len(list(dataset)) == 3
-    with pytest.raises(ShardError, match="holds no test shard"):
-        ShardDataset(intact.parent, split="test")
     with pytest.raises(ShardError, match="no shard holds"):
         dataset.position("laptop_000001")
 
