@@ -19,6 +19,9 @@ COLUMN, ROW, SIDE = (0, 1, 0), (1, 2, 2), (2, 0, 1)
 """
 INSET = 1e-3
 """Texels that a reading stays away from the last row, so that rounding never reads a neighbor's."""
+ROUNDINGS = 4
+"""Of a coordinate on its way to a texel, half an epsilon of the whole image each; a reading stays
+as far from the first row, where it would else read the last one of the planes before."""
 
 
 def stacked(planes_BP6CHW: Tensor) -> Tensor:
@@ -59,8 +62,10 @@ def _one_side(
     """Features read from the side >= 0 where `upper_KN3`, else from the other."""
     batch = images.shape[0] // 3
     height, width = images.shape[2] // parts, images.shape[3] // 2
-    column = _texel(points_KN3[..., COLUMN], width) + width * ~upper_KN3
-    row = _texel(points_KN3[..., ROW], height) + height * (slot_K % parts)[:, None, None]
+    least = ROUNDINGS * torch.finfo(points_KN3.dtype).eps / 2.0
+    column = _texel(points_KN3[..., COLUMN], width, least * 2 * width) + width * ~upper_KN3
+    row = _texel(points_KN3[..., ROW], height, least * parts * height)
+    row = row + height * (slot_K % parts)[:, None, None]
     # grid_sample takes -1 and 1 for the outer edges of the outer texels.
     x = (2.0 * column + 1.0) / (2 * width) - 1.0
     y = (2.0 * row + 1.0) / (parts * height) - 1.0
@@ -70,10 +75,10 @@ def _one_side(
     return rows.packed(features.reshape(batch, rows.most, *grid_KN32.shape[1:2], -1))
 
 
-def _texel(coordinates: Tensor, count: int) -> Tensor:
+def _texel(coordinates: Tensor, count: int, least: float) -> Tensor:
     """Texel coordinate 0 (first middle) to count - 1 (last middle) of [-1, 1]; clamped."""
     at = (coordinates + 1.0) * ((count - 1) / 2.0)
-    return at.clamp(0.0, count - 1 - INSET) if count > 1 else torch.zeros_like(at)
+    return at.clamp(least, count - 1 - INSET) if count > 1 else torch.zeros_like(at)
 
 
 def _sampled(images: Tensor, grid_BM32: Tensor) -> Tensor:

@@ -65,17 +65,29 @@ def test_segments_may_be_any_in_any_number() -> None:
         torch.testing.assert_close(found[k], alone[0], rtol=0, atol=1e-13)
 
 
-def test_no_reading_reaches_the_planes_of_others() -> None:
-    """Not even at the border of the box, in float32, if others hold a million times more."""
-    planes, _ = planes_and_points(side=(64, 64), parts=8)
+@pytest.mark.parametrize(("side", "parts"), [(24, 5), (24, 7), (64, 8), (192, 5), (192, 8)])
+def test_no_reading_reaches_the_planes_of_others(side: int, parts: int) -> None:
+    """Not even at the border of the box, in float32, if others hold a million times more: the other
+    parts, and of the part itself the planes of the sides where the points are not.
+
+    Coordinates are exact where parts times side is a power of two, and round elsewhere.
+    """
+    planes, _ = planes_and_points(side=(side, side), parts=parts)
     planes = planes.float()
     corners = torch.tensor([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1)])
     points = corners.float()[None]
-    loud = planes * 1e6
-    loud[:, 3] = planes[:, 3]
-    slot = torch.tensor([3])
-    quiet = read(stacked(planes), points, slot, parts=8)
-    assert torch.equal(read(stacked(loud), points, slot, parts=8), quiet)
+    upper = points[0][:, (2, 0, 1)].repeat_interleave(2, dim=-1) >= 0
+    for part in range(parts):
+        slot = torch.tensor([part])
+        quiet = read(stacked(planes), points, slot, parts=parts)[0]
+        loud = planes * 1e6
+        loud[:, part] = planes[:, part]
+        assert torch.equal(read(stacked(loud), points, slot, parts=parts)[0], quiet)
+        for first, shown in ((0, ~upper), (1, upper)):
+            loud = planes.clone()
+            loud[:, :, first::2] *= 1e6
+            found = read(stacked(loud), points, slot, parts=parts)[0]
+            assert torch.equal(found[shown], quiet[shown])
 
 
 def test_planes_of_one_texel_are_constant() -> None:
