@@ -1,5 +1,6 @@
 """Which objects lie at paths: folders of PartNet-Mobility, URDF files, static meshes."""
 
+import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -123,8 +124,12 @@ def _astray(place: Path, path: Path) -> str | None:
 
 
 def _once(entries: Iterator[Found]) -> list[Found]:
-    """Each place once, in order."""
-    return list({entry.path.absolute(): entry for entry in entries}.values())
+    """Each place once, in order, however often and by whatever spelling it is named."""
+    places: dict[str, Found] = {}
+    for entry in entries:
+        path = entry.path
+        places.setdefault(os.path.realpath(path) if path.exists() else str(path.absolute()), entry)
+    return list(places.values())
 
 
 def named(found: Sequence[Found], kind: Kind) -> list[tuple[str, Found]]:
@@ -145,5 +150,5 @@ def named(found: Sequence[Found], kind: Kind) -> list[tuple[str, Found]]:
 
 def _own_name(path: Path) -> str:
     """A folder's name; of a file, with that of its folder, as many files are called alike."""
-    own = path.absolute()
+    own = Path(os.path.normpath(path.absolute()))
     return f"{own.parent.name}_{own.stem}" if own.is_file() else own.name

@@ -125,7 +125,14 @@ def read_digest(task: IngestTask) -> str | None:
 
 
 def _places(task: IngestTask) -> dict[str, str | None]:
-    return {"path": str(task.path), "root": None if task.root is None else str(task.root)}
+    root = task.path.parent if task.root is None and task.kind == "urdf" else task.root
+    return {"path": _real(task.path), "root": _real(root)}
+
+
+def _real(place: object) -> str | None:
+    """Where a place really is, however it is spelled: relative, with a slash behind it, by a
+    link."""
+    return None if place is None else os.path.realpath(str(place))
 
 
 def kept_outcome(folder: RunFolder, task: IngestTask, settings: str) -> Outcome | None:
@@ -133,7 +140,8 @@ def kept_outcome(folder: RunFolder, task: IngestTask, settings: str) -> Outcome 
     a refusal.
 
     Raises:
-        UsageError: it was made with other settings, from another place, or of another annotation.
+        UsageError: it was made with other settings, of another place's files, or of another
+            annotation.
     """
     path = record_path(folder, task.asset_id)
     if not path.exists():
@@ -145,12 +153,17 @@ def kept_outcome(folder: RunFolder, task: IngestTask, settings: str) -> Outcome 
         return None  # A damaged record costs one object's time.
     if outcome.status == "refused":
         return None
-    same = all(stated.get(key) == place for key, place in _places(task).items())
-    if stated.get("settings") != settings or not same:
+    if stated.get("settings") != settings:
         raise UsageError(
-            f"{folder.root}: {task.asset_id} was ingested with other settings or from another "
-            "place; choose a new --out (nothing is overwritten)"
+            f"{folder.root}: {task.asset_id} was ingested with other settings or by another version"
+            "; choose a new --out (nothing is overwritten)"
         )
+    for key, place in _places(task).items():
+        if _real(stated.get(key)) != place:
+            raise UsageError(
+                f"{folder.root}: {task.asset_id} was ingested from {key} {stated.get(key)}, not "
+                f"{place}; name that one, or choose a new --out (nothing is overwritten)"
+            )
     home = folder.assets / outcome.category / task.asset_id
     if not (home / "manifest.json").exists():
         return None

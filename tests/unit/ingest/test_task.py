@@ -2,15 +2,16 @@
 
 import dataclasses
 import json
+import re
 from pathlib import Path
 
 import pytest
 
 from artgen.core.errors import UsageError
-from artgen.ingest.found import found_folders
+from artgen.ingest.found import Found, found_folders, named
 from artgen.ingest.options import Options
 from artgen.ingest.run import ingest_all, kept_outcome, record_path, write_record
-from artgen.ingest.task import IngestTask, Outcome, category_name, ingest, verdict
+from artgen.ingest.task import IngestTask, Kind, Outcome, category_name, ingest, verdict
 from artgen.pipeline import Toolbox
 from artgen.progress import silent
 from artgen.run_folder import RunFolder
@@ -130,10 +131,41 @@ def test_finished_objects_are_kept_and_refused_ones_tried_again(tmp_path: Path) 
     assert kept_outcome(folder, task, "hash") == outcome("flawed")
     with pytest.raises(UsageError, match="other settings"):
         kept_outcome(folder, task, "other")
-    with pytest.raises(UsageError, match="from another"):
+    with pytest.raises(UsageError, match="was ingested from root None"):
         kept_outcome(folder, dataclasses.replace(task, root=tmp_path), "hash")
     record_path(folder, "pm_x").write_text("{")
     assert kept_outcome(folder, task, "hash") is None
+
+
+@pytest.mark.parametrize("kind", ["partnet", "urdf"])
+def test_an_object_is_the_same_however_its_place_is_spelled(
+    kind: Kind, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Found: a folder named once relatively and once absolutely was refused as another place."""
+    folder, source = RunFolder(tmp_path / "out"), tmp_path / "in" / "1"
+    cabinet().write(source)
+    (tmp_path / "link").symlink_to(tmp_path / "in")
+    (folder.assets / "cabinet" / "pm_x").mkdir(parents=True)
+    (folder.assets / "cabinet" / "pm_x" / "manifest.json").write_text("{}")
+    monkeypatch.chdir(tmp_path / "in")
+    inner = "mobility.urdf" if kind == "urdf" else ""
+    spelled = [Path("1") / inner, source / inner, tmp_path / "link" / "1" / inner]
+    spelled.append(source / ".." / "1" / inner)
+    tasks = [dataclasses.replace(task_at(path), kind=kind) for path in spelled]
+    if kind == "urdf":
+        tasks += [dataclasses.replace(task, root=task.path.parent) for task in tasks]
+    for first in tasks:
+        write_record(folder, first, outcome("valid"), "hash")
+        assert all(kept_outcome(folder, other, "hash") == outcome("valid") for other in tasks)
+    names = {named([Found(path=task.path)], kind)[0][0] for task in tasks}
+    assert names == {"urdf_1_mobility" if kind == "urdf" else "pm_1"}
+    if kind == "partnet":
+        assert len(found_folders(spelled)) == 1
+    cabinet().write(tmp_path / "copy" / "1")
+    with pytest.raises(UsageError, match=rf"was ingested from path {re.escape(str(source))}"):
+        kept_outcome(
+            folder, dataclasses.replace(tasks[0], path=tmp_path / "copy" / "1" / inner), "hash"
+        )
 
 
 def test_what_was_made_of_another_annotation_is_not_kept_in_silence(tmp_path: Path) -> None:
