@@ -126,8 +126,8 @@ def score(
     predicted, true = in_radii(aligned(predicted, true, protocol.align), true)
     matchings = {"order": by_order(len(predicted), len(true)), "nearest": nearest(predicted, true)}
     found |= matched_values(predicted, true, matchings, mask_pixels=protocol.mask_pixels)
-    found["singapo.honest.aor"] = [overlap_ratio(predicted)]
-    found["singapo.honest.aor_true"] = [overlap_ratio(true)]
+    overlaps = {"aor": overlap_ratio(predicted), "aor_true": overlap_ratio(true)}
+    put(found, "singapo.honest", overlaps)
     _put_particulate(found, particulate(predicted, true, points=protocol.part_points))
     _put_surfaces(found, predicted, true, protocol)
     for prefix, own in (images or {}).items():

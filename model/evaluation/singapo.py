@@ -156,10 +156,10 @@ def _scores(overlaps: Floats, distances: Floats) -> BoxScores:
     )
 
 
-def overlap_ratio_published(layout: Layout, *, handles: bool = True) -> float:
+def overlap_ratio_published(layout: Layout, *, handles: bool = True) -> float | None:
     """AOR: IoU of siblings' boxes by 10,000 points, mean over pairs and 10 states; less is better.
 
-    0 where no two parts are siblings.
+    None where no two parts are siblings: the original gives -1 there and leaves it out of means.
     """
     if not handles:
         layout = without_handles(layout)
@@ -173,11 +173,11 @@ def overlap_ratio_published(layout: Layout, *, handles: bool = True) -> float:
             relative = inverted(poses[a]) @ poses[b]
             shared = shared_sampled(first, second, relative, rng, count=SAMPLES)
             found.append(iou(volume(first), volume(second), shared))
-    return float(np.mean(found)) if found else 0.0
+    return float(np.mean(found)) if found else None
 
 
-def overlap_ratio(layout: Layout) -> float:
-    """AOR with true ranges and exact volumes."""
+def overlap_ratio(layout: Layout) -> float | None:
+    """AOR with true ranges and exact volumes; None where no two parts are siblings."""
     pairs = sibling_pairs(layout)
     found = []
     for share in np.linspace(0.0, 1.0, AOR_STATES).tolist():
@@ -186,7 +186,7 @@ def overlap_ratio(layout: Layout) -> float:
             first, second = layout.boxes[a], layout.boxes[b]
             shared = shared_moved(first, second, inverted(poses[a]) @ poses[b])
             found.append(iou(volume(first), volume(second), shared))
-    return float(np.mean(found)) if found else 0.0
+    return float(np.mean(found)) if found else None
 
 
 def sibling_pairs(layout: Layout) -> Sequence[tuple[int, int]]:

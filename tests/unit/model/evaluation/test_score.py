@@ -104,10 +104,12 @@ def test_without_handles_all_published_metrics_are_without_them() -> None:
     without, with_them = (
         score(guess, truth, replace(QUICK, handles=handles)).metrics for handles in (False, True)
     )
-    for name in ("rs_dgiou", "rs_dcdist", "aor"):
+    for name in ("rs_dgiou", "rs_dcdist"):
         key = f"singapo.published.{name}"
         assert without[key] == pytest.approx([0.0], abs=1e-12), name
         assert with_them[key][0] > 0.05, name
+    assert with_them["singapo.published.aor"][0] > 0.05
+    assert "singapo.published.aor" not in without  # A drawer alone has no sibling.
     # Samples of the two parts that are left, as in test_singapo_surfaces, in radii squared.
     assert without["singapo.published.rs_dcd"][0] < 5e-3 < with_them["singapo.published.rs_dcd"][0]
 

@@ -191,6 +191,15 @@ def test_overlap_ratio_of_two_drawers_that_cross() -> None:
     assert overlap_ratio(cabinet()) == pytest.approx(0.0, abs=1e-12)
 
 
+def test_where_no_two_parts_are_siblings_there_is_no_overlap_ratio() -> None:
+    """The original gives -1 and leaves it out of means; a 0 would pass for a perfect score."""
+    pair = taken(cabinet(), [0, 1])
+    chain = cabinet(parents=np.array([-1, 0, 1]))
+    for layout in (pair, chain):
+        assert overlap_ratio(layout) is None
+        assert overlap_ratio_published(layout) is None
+
+
 def test_what_has_no_thickness_is_not_stretched_to_one() -> None:
     """A height of 1e-13 is a rounding: by its factor, the pivot of the door would fly away."""
     truth = cabinet()
