@@ -1,7 +1,6 @@
 """From rule to validated bundle: one asset at a time, many processes side by side, resumable."""
 
 import dataclasses
-import json
 import os
 import tempfile
 import time
@@ -15,7 +14,7 @@ import numpy as np
 from artgen import __version__
 from artgen.articulation.types import ArticulatedObject
 from artgen.core.errors import ArtgenError, UsageError
-from artgen.core.jsonio import fill_folder_atomically, plain, write_json
+from artgen.core.jsonio import fill_folder_atomically, plain, read_object, write_json
 from artgen.core.mesh import Floats, Ints
 from artgen.core.stream import Stream
 from artgen.export import write_bundle
@@ -32,6 +31,8 @@ from artgen.worker import BlenderWorker
 
 BYTES_PER_ASSET = 5_000_000
 """A bundle stays under 3 MB; its sample and its share of the shards add about 1 MB."""
+ANEW = "remove its folder and run the same command again to have it made anew"
+"""What to do about a kept bundle that is damaged."""
 ROUND_TIMEOUT_S = 60.0
 ASSET_TIMEOUT_S = 600.0
 """An asset takes 3 to 5 s; a process that hangs for this long is killed and its asset set aside."""
@@ -113,6 +114,7 @@ def check_kept(folder: RunFolder, tasks: Sequence[AssetTask]) -> set[str]:
 
     Raises:
         UsageError: one was made from another seed, rule or version; nothing is overwritten.
+        ExportError: a manifest is damaged.
     """
     kept = set()
     digests = {task.category: task.rule.digest for task in {t.category: t for t in tasks}.values()}
@@ -120,7 +122,7 @@ def check_kept(folder: RunFolder, tasks: Sequence[AssetTask]) -> set[str]:
         manifest = task.place(folder.assets) / "manifest.json"
         if not manifest.exists():
             continue
-        found = json.loads(manifest.read_text(encoding="utf-8"))
+        found = read_object(manifest, remedy=ANEW)
         expected = {
             "seed": task.seed,
             "rule": digests[task.category],

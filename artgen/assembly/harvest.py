@@ -1,6 +1,5 @@
 """Where a library's sources come from: our own generators, and bundles of any origin."""
 
-import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,8 +9,8 @@ from typing import Any
 from artgen.articulation.canonical import canonicalize
 from artgen.assembly.finished import finished_object
 from artgen.assembly.source import Source, source_of_draft, source_of_object
-from artgen.core.errors import ExportError, UsageError
-from artgen.core.jsonio import file_hash
+from artgen.core.errors import UsageError
+from artgen.core.jsonio import file_hash, read_object
 from artgen.core.licence import licence_of
 from artgen.core.stream import Stream
 from artgen.dataset.split import OURS, families_of
@@ -115,14 +114,7 @@ def read_manifest(folder: Path) -> Mapping[str, Any]:
     Raises:
         ExportError: it cannot be read.
     """
-    path = folder / MANIFEST
-    try:
-        manifest = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ExportError(f"{path}: cannot be read ({error}); make the bundle again") from error
-    if not isinstance(manifest, Mapping):
-        raise ExportError(f"{path}: holds no JSON object; make the bundle again")
-    return manifest
+    return read_object(folder / MANIFEST, remedy="make the bundle again")
 
 
 def _origin(manifest: Mapping[str, Any]) -> tuple[str, str]:

@@ -1,21 +1,19 @@
 """Assembled objects as validated bundles: processes side by side, resumable, no object twice."""
 
-import json
 import os
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from artgen import __version__
 from artgen.assembly.assemble import Assembled, GivenUp, assembled, finished
 from artgen.assembly.choice import Market
 from artgen.assembly.library import MOST_PARTS, Library
 from artgen.core.errors import ArtgenError, UsageError
-from artgen.core.jsonio import write_json
+from artgen.core.jsonio import read_object, write_json
 from artgen.core.stream import Stream
-from artgen.pipeline import Outcome, Stopwatch, Toolbox, landed
+from artgen.pipeline import ANEW, Outcome, Stopwatch, Toolbox, landed
 from artgen.pool import run_in_processes
 from artgen.run_folder import RunFolder
 
@@ -116,13 +114,14 @@ def check_kept(folder: RunFolder, tasks: Sequence[AssembleTask], digest: str) ->
 
     Raises:
         UsageError: one was made from another seed, library or version; nothing is overwritten.
+        ExportError: a manifest is damaged.
     """
     kept = set()
     for task in tasks:
         manifest = task.place(folder.assets) / "manifest.json"
         if not manifest.exists():
             continue
-        found = _stated(manifest)
+        found = read_object(manifest, remedy=ANEW)
         expected = {"seed": task.seed, "library": digest, "artgen": __version__}
         actual = {key: found.get(key) for key in ("seed", "library")}
         actual["artgen"] = found.get("versions", {}).get("artgen")
@@ -135,21 +134,6 @@ def check_kept(folder: RunFolder, tasks: Sequence[AssembleTask], digest: str) ->
     return kept
 
 
-def _stated(manifest: Path) -> Mapping[str, Any]:
-    """What a manifest of this run says.
-
-    Raises:
-        UsageError: it is damaged.
-    """
-    try:
-        found = json.loads(manifest.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise UsageError(
-            f"{manifest}: cannot be read ({error}); remove its folder and run again to make it anew"
-        ) from error
-    return found if isinstance(found, Mapping) else {}
-
-
 def set_twins_aside(folder: RunFolder, tasks: Sequence[AssembleTask]) -> list[Outcome]:
     """Of objects with equal tree, shapes and looks the first stays; the others go to failed/."""
     first: dict[str, str] = {}
@@ -158,7 +142,8 @@ def set_twins_aside(folder: RunFolder, tasks: Sequence[AssembleTask]) -> list[Ou
         home = task.place(folder.assets)
         if not (home / "manifest.json").exists():
             continue
-        digest = _stated(home / "manifest.json").get("hashes", {}).get("object", task.asset_id)
+        manifest = read_object(home / "manifest.json", remedy=ANEW)
+        digest = manifest.get("hashes", {}).get("object", task.asset_id)
         twin = first.setdefault(digest, task.asset_id)
         if twin != task.asset_id:
             shutil.rmtree(home)

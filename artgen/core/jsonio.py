@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from artgen.core.errors import ExportError
+
 
 def plain(value: Any) -> Any:
     """Dataclasses, arrays, paths and tuples as JSON's own types."""
@@ -43,6 +45,24 @@ def file_hash(path: Path) -> str:
     """sha256 of a file's bytes, as 64 hex digits."""
     with path.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def read_object(path: Path, *, remedy: str) -> dict[str, Any]:
+    """The JSON object that a file of ours holds, such as the manifest of a bundle.
+
+    Args:
+        remedy: what to do where it cannot be read, for the message.
+
+    Raises:
+        ExportError: it is missing, damaged, or holds something else.
+    """
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError) as error:
+        raise ExportError(f"{path} cannot be read ({error}); {remedy}") from error
+    if not isinstance(found, dict):
+        raise ExportError(f"{path} cannot be read (it holds no JSON object); {remedy}")
+    return found
 
 
 def write_json(path: Path, value: Any) -> None:

@@ -3,7 +3,6 @@
 Rows are sorted by asset id and files are zstd-compressed; equal assets give equal bytes.
 """
 
-import json
 import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,8 +12,8 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from artgen.core.errors import ShardError
-from artgen.core.jsonio import replace_atomically
+from artgen.core.errors import ExportError, ShardError
+from artgen.core.jsonio import read_object, replace_atomically
 from artgen.dataset.listing import Listed, listed_assets
 from artgen.dataset.packing import Packing
 from artgen.dataset.reader import open_shard
@@ -149,11 +148,11 @@ def _bundle_columns(asset: Listed) -> dict[str, Any]:
         "donors": [],
     }
     try:
-        facts = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        facts = read_object(path, remedy="make the asset again")
+    except ExportError:
         if not asset.valid:
             return nothing
-        raise ShardError(f"{path}: cannot be read ({error}); make the asset again") from error
+        raise
     if facts.get("schema") != BUNDLE_SCHEMA and not asset.valid:
         return nothing
     if facts.get("schema") != BUNDLE_SCHEMA:

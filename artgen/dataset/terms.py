@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from artgen.core.errors import ShardError
-from artgen.core.jsonio import write_json
+from artgen.core.jsonio import read_object, write_json
 from artgen.core.licence import OURS, licence_of, sources_of
 from artgen.dataset.listing import Listed, listed_assets
 
@@ -40,13 +40,13 @@ def terms_of(assets: Iterable[Listed]) -> Terms:
     """Terms of some assets, told by their manifests.
 
     Raises:
-        ShardError: a manifest cannot be read.
+        ExportError: a manifest cannot be read.
     """
     licences: Counter[str] = Counter()
     sources: dict[str, set[str]] = defaultdict(set)
     bound = []
     for asset in assets:
-        facts = _manifest(asset.bundle / "manifest.json")
+        facts = read_object(asset.bundle / "manifest.json", remedy="make the asset again")
         licence = licence_of(facts)
         licences[licence.id] += 1
         if not licence.distributable:
@@ -113,13 +113,3 @@ def refuse_bound_shards(shards: Path) -> None:
             "may be handed on; pack them again with artgen shard --public"
         ) from error
     refuse_bound(shards, bound)
-
-
-def _manifest(path: Path) -> Mapping[str, Any]:
-    try:
-        facts = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ShardError(f"{path}: cannot be read ({error!r}); make the asset again") from error
-    if not isinstance(facts, Mapping):
-        raise ShardError(f"{path}: holds no JSON object; make the asset again")
-    return facts

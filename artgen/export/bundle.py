@@ -1,6 +1,5 @@
 """A bundle read back: the manifest as typed values, meshes on demand."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +20,7 @@ from artgen.articulation.types import (
     check_tree,
 )
 from artgen.core.errors import ArtgenError, ExportError
+from artgen.core.jsonio import read_object
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.surface import SurfaceSpec
 from artgen.export.kinematics import vector
@@ -131,11 +131,8 @@ def read_bundle(folder: Path) -> Bundle:
         ExportError: there is no manifest, it is of another schema, or it is damaged.
     """
     path = folder / MANIFEST
-    try:
-        stated = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise ExportError(f"{path} cannot be read ({error}); is {folder} an asset?") from error
-    schema = stated.get("schema") if isinstance(stated, dict) else None
+    stated = read_object(path, remedy=f"is {folder} an asset?")
+    schema = stated.get("schema")
     if schema != SCHEMA:
         raise ExportError(
             f"{path} has schema {schema!r}, this artgen reads {SCHEMA!r}; generate the asset anew"

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from artgen import pipeline
-from artgen.core.errors import RuleError, UsageError
+from artgen.core.errors import ExportError, RuleError, UsageError
 from artgen.pipeline import AssetTask, Toolbox, check_kept, make_asset, plan
 from artgen.rules import load_rule
 from artgen.run_folder import RunFolder
@@ -70,6 +70,14 @@ def test_a_bundle_of_another_making_is_neither_kept_nor_overwritten(tmp_path, ch
     with pytest.raises(UsageError, match=f"made from another {word}; choose a new --out"):
         check_kept(RunFolder(tmp_path), [TASK])
     assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]"])
+def test_a_damaged_bundle_is_told_with_its_place_and_what_to_do(tmp_path: Path, text: str) -> None:
+    """Found: a cut manifest ended `artgen generate` in a traceback."""
+    manifest_of(TASK, RunFolder(tmp_path).assets).write_text(text)
+    with pytest.raises(ExportError, match=r"cabinet/000003/manifest\.json .* remove its folder"):
+        check_kept(RunFolder(tmp_path), [TASK])
 
 
 @pytest.mark.blender

@@ -26,7 +26,7 @@ from artgen.assembly.run import (
     opened_market,
     set_twins_aside,
 )
-from artgen.core.errors import UsageError
+from artgen.core.errors import ExportError, UsageError
 from artgen.core.jsonio import write_json
 from artgen.core.licence import PARTNET
 from artgen.core.stream import Stream
@@ -236,9 +236,9 @@ def test_a_damaged_manifest_of_an_earlier_run_is_told(tmp_path):
     folder = RunFolder(tmp_path)
     stated(folder, 0)
     (task(0).place(folder.assets) / "manifest.json").write_text("{")
-    with pytest.raises(UsageError, match="remove its folder"):
+    with pytest.raises(ExportError, match="remove its folder"):
         check_kept(folder, [task(0)], "d")
-    with pytest.raises(UsageError, match="remove its folder"):
+    with pytest.raises(ExportError, match="remove its folder"):
         set_twins_aside(folder, [task(0)])
 
 

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from artgen.core.errors import ExportError
 from artgen.core.jsonio import (
     canonical_json,
     content_hash,
     fill_folder_atomically,
+    read_object,
     write_bytes,
     write_json,
 )
@@ -34,6 +36,25 @@ def test_canonical_json_ignores_key_order_and_keeps_every_digit() -> None:
 def test_not_a_number_is_refused() -> None:
     with pytest.raises(ValueError, match="JSON"):
         canonical_json({"a": float("nan")})
+
+
+@pytest.mark.parametrize(
+    "content", [None, b"", b"{", b'"text"', b"[]", b"\xff", b"[" * 100_000], ids=repr
+)
+def test_what_is_no_object_of_ours_is_told_with_its_remedy(
+    content: bytes | None, tmp_path: Path
+) -> None:
+    """Missing, empty, cut, of another kind, no text, nested without end: one error for all."""
+    path = tmp_path / "manifest.json"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(ExportError, match=r"manifest\.json cannot be read \(.+\); make it anew"):
+        read_object(path, remedy="make it anew")
+
+
+def test_what_was_written_is_read(tmp_path: Path) -> None:
+    write_json(tmp_path / "a.json", {"x": 1 / 3, "y": [1, {}]})
+    assert read_object(tmp_path / "a.json", remedy="") == {"x": 1 / 3, "y": [1, {}]}
 
 
 def test_equal_values_give_equal_bytes(tmp_path: Path) -> None:
