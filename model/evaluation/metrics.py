@@ -7,6 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+LOOSE_DISTANCE = 1.0
+"""Radii that a part without a counterpart counts in the honest dcDist."""
+
 Better = Literal["less", "more", ""]
 
 
@@ -17,8 +20,9 @@ class Metric:
     Attributes:
         unit: of its values.
         better: which way; empty where neither is.
-        worst: what an object without a prediction counts; None where the scale has no end, and
-            such objects are left out and counted.
+        worst: what an object without a prediction counts: the end of the scale, or what the metric
+            says of a part without a counterpart; None where there is neither, and such objects are
+            left out and counted.
     """
 
     unit: str
@@ -31,6 +35,10 @@ _BOX = {
     "as_dgiou": Metric("1 - gIoU", "less", 2.0),
     "rs_dcdist": Metric("radii", "less"),
     "as_dcdist": Metric("radii", "less"),
+}
+_HONEST_BOX = _BOX | {
+    "rs_dcdist": Metric("radii", "less", LOOSE_DISTANCE),
+    "as_dcdist": Metric("radii", "less", LOOSE_DISTANCE),
 }
 _JOINT = {
     "found": Metric("share", "more", 0.0),
@@ -117,7 +125,7 @@ METRICS: Mapping[str, Metric] = {
     "singapo.published.as_dcd": Metric("radii squared", "less"),
     "singapo.published.aor": Metric("IoU", "less"),
     "singapo.published.aor_true": Metric("IoU", ""),
-    **_matched("singapo.honest", _BOX),
+    **_matched("singapo.honest", _HONEST_BOX),
     "singapo.honest.aor": Metric("IoU", "less"),
     "singapo.honest.aor_true": Metric("IoU", ""),
     **_under("particulate", _PARTICULATE),

@@ -34,6 +34,7 @@ from model.evaluation.boxes import (
 )
 from model.evaluation.layout import HANDLE, Layout
 from model.evaluation.matching import Matching, singapo_mapping
+from model.evaluation.metrics import LOOSE_DISTANCE
 from model.evaluation.reshape import placed, stretched, without
 
 STATES = 5
@@ -142,7 +143,7 @@ def honest(predicted: Layout, true: Layout, matching: Matching) -> BoxScores:
         mine, theirs = (own.poses(own.opened(share)) for own in (predicted, true))
         pairs = [(predicted.boxes[p], true.boxes[t], mine[p], theirs[t]) for p, t in matching.pairs]
         overlaps[row] = (sum(giou_moved(*pair) for pair in pairs) - loose) / count
-        far = loose * true.radius
+        far = loose * LOOSE_DISTANCE * true.radius
         distances[row] = (sum(_center_distance(*pair) for pair in pairs) + far) / count
     return _scores(overlaps, distances)
 

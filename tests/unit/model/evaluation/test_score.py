@@ -86,13 +86,32 @@ def test_radii_are_half_diagonals() -> None:
 def test_failure_is_the_worst_and_nothing_is_better() -> None:
     truth = cabinet()
     record = failed(truth, "it crashed")
-    poor = score(placed(taken(truth, [0]), shift=(50.0, 0.0, 0.0)), truth, QUICK)
-    for name, values in record.metrics.items():
-        sign = 1.0 if METRICS[name].better == "more" else -1.0
-        for value in poor.metrics.get(name, ()):
-            assert sign * value >= sign * values[0], name
+    for shift in (50.0, 0.9 * truth.radius):
+        poor = score(placed(taken(truth, [0]), shift=(shift, 0.0, 0.0)), truth, QUICK)
+        for name, values in record.metrics.items():
+            if "dcdist" in name and shift > truth.radius:
+                continue  # Farther off than a part that is not there.
+            sign = 1.0 if METRICS[name].better == "more" else -1.0
+            for value in poor.metrics.get(name, ()):
+                assert sign * value >= sign * values[0], name
     assert len(record.metrics["joints.nearest.type_right"]) == 2
     assert "surfaces.rest.chamfer_l1" not in record.metrics
+
+
+def test_no_prediction_counts_as_one_whose_parts_are_all_without_a_counterpart() -> None:
+    """Found: a failed object was left out of the mean of dcDist, while each part that a prediction
+    lacked cost one radius: who predicted nothing at all was better off. Of P parts the base alone
+    is predicted right here: (P - 1) / P of what failure costs is left."""
+    truth = cabinet()
+    worst, found = (
+        failed(truth, "it crashed").metrics,
+        score(taken(truth, [0]), truth, QUICK).metrics,
+    )
+    for matching in ("order", "nearest"):
+        for name in ("rs_dgiou", "as_dgiou", "rs_dcdist", "as_dcdist"):
+            key = f"singapo.honest.{matching}.{name}"
+            # Exact booleans of boxes lose 1e-9.
+            assert found[key] == pytest.approx([worst[key][0] * 2.0 / 3.0], abs=1e-8), key
 
 
 def test_without_handles_all_published_metrics_are_without_them() -> None:
