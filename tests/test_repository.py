@@ -11,6 +11,14 @@ from artgen.cli import found_commands
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("artgen", "renders", "blender_scripts", "category_rules", "model")
 SOURCES = sorted(path for name in PACKAGES for path in (ROOT / name).rglob("*.py"))
+LEFT_BEHIND = {".glb", ".tar", ".blend", ".npz", ".db", ".sqlite", ".log", ".partial", ".lock"}
+"""Suffixes of what runs, tests and tools write."""
+ROOTS = (
+    *PACKAGES,
+    *(".ci", "docs", "examples", "tests"),
+    *(".gitignore", "CHANGELOG.md", "LICENSE", "Makefile", "README.md", "pyproject.toml"),
+)
+"""All that lies at the root."""
 BANNED_NAMES = {"utils", "util", "common", "helpers", "base", "manager", "misc"}
 
 
@@ -46,16 +54,26 @@ def test_generators_are_builders_and_their_kit() -> None:
     assert builders - {"__init__"} == set(CATEGORIES)
 
 
-def test_nothing_large_or_foreign_is_tracked() -> None:
+def _tracked() -> list[str]:
+    """Paths that git lists, of files and links that are there."""
     listed = subprocess.run(
         ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout.split("\0")
-    for name in filter(None, listed):
+    return [name for name in filter(None, listed) if (ROOT / name).is_file()]
+
+
+def test_nothing_large_or_foreign_is_tracked() -> None:
+    for name in _tracked():
         path = ROOT / name
-        if path.is_file():
-            ships = name.startswith("model/checkpoints/")
-            assert path.stat().st_size <= (30_000_000 if ships else 1_500_000), name
-            assert path.suffix not in {".glb", ".tar", ".blend", ".npz"}, name
+        ships = name.startswith("model/checkpoints/")
+        assert path.stat().st_size <= (30_000_000 if ships else 1_500_000), name
+        assert path.suffix not in LEFT_BEHIND, name
+
+
+def test_what_a_run_leaves_at_the_root_is_not_tracked() -> None:
+    """Tests once left `run/` there and a data base beside it. What is new at the root is written
+    into `ROOTS` by whoever means it."""
+    assert {name.partition("/")[0] for name in _tracked()} == set(ROOTS)
 
 
 def test_the_readme_names_every_command() -> None:
