@@ -26,8 +26,8 @@ Written by `artgen study render`, in one run; `render.csv` beside this page hold
 
 Three scenes: a cabinet of matte oak and a dishwasher of brushed steel, as our rules draw them with
 seed 2026 in surfaces that the study chooses; and a cooler with a glass door, built for the study
-alone, since no rule makes fridges. Of each, four images from one camera in the light of a drawn
-studio: everything, with the joints shut and ajar; the base alone; the largest moving part alone.
+alone. Of each, four images from one camera in the light of a drawn studio: everything, with the
+joints shut and ajar; the base alone; the largest moving part alone.
 
 - **PSNR** is of sRGB over white, as `artgen.imaging.display` writes it; **fg** counts the pixels
   that the object covers. **FLIP** is the mean of NVIDIA's library at 67 px a degree.

@@ -54,10 +54,7 @@ def dishwasher() -> Draft:
 
 
 def fridge() -> Draft:
-    """A drinks cooler: white carcass, shelves with bottles, a glass door.
-
-    No category makes fridges, so this one is built here and drawn from no rule.
-    """
+    """A drinks cooler built here and drawn from no rule: white carcass, bottles, a glass door."""
     width, depth, height, wall = 0.55, 0.50, 0.85, 0.035
     x, back, front = width / 2.0, depth / 2.0, -depth / 2.0
     white = Stock(surface="white", density=60.0, edge=0.003)  # sheet around foam
