@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+import numpy as np
 import torch
 from torch import Tensor
 
@@ -20,7 +21,13 @@ def full_precision(tensor: Tensor) -> torch.autocast:
 @contextmanager
 def flushed_denormals() -> Iterator[None]:
     """Numbers below float32's normal range count as zero inside: tails of densities would slow a
-    CPU down several times. It holds for the whole process, so only until the block ends."""
+    CPU down several times. It holds for the whole process, so only until the block ends.
+
+    What numpy knows of its types is asked for before: it keeps the answer, and would warn of the
+    least denormal number inside, where that is zero.
+    """
+    for kind in (np.float32, np.float64):
+        np.finfo(kind)
     torch.set_flush_denormal(True)
     try:
         yield

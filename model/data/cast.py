@@ -34,11 +34,6 @@ class Hits(TensorBlock):
 
     code_CHW: Tensor
 
-    @property
-    def hit_CHW(self) -> Tensor:
-        """bool, whether the ray through the pixel's center meets a triangle."""
-        return self.code_CHW >= 0
-
 
 def triangle_of(code: Tensor) -> Tensor:
     """int64 index of the triangle that a code names; anything where nothing is hit."""

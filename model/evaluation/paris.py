@@ -21,7 +21,7 @@ from model.evaluation.matching import Matching
 from model.evaluation.surfaces import chamfer_squared, posed_triangles, sampled
 
 POINTS = 10_000
-WORST_DEG, WORST_MOTION_DEG = 90.0, 180.0
+WORST_DEG = 90.0
 
 
 @dataclass(frozen=True, kw_only=True)

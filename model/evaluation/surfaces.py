@@ -105,10 +105,3 @@ def chamfer_squared(first: Floats, second: Floats) -> float:
     forward, _ = cKDTree(second).query(first)
     backward, _ = cKDTree(first).query(second)
     return float((forward**2).mean() + (backward**2).mean())
-
-
-def chamfer_l1(first: Floats, second: Floats) -> float:
-    """Mean distance to the nearest point, both ways added."""
-    forward, _ = cKDTree(second).query(first)
-    backward, _ = cKDTree(first).query(second)
-    return float(forward.mean() + backward.mean())

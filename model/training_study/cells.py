@@ -9,7 +9,6 @@ from artgen.core.errors import UsageError
 from artgen.core.jsonio import plain
 from artgen.progress import Show
 from model.config import Config
-from model.training.art_file import load_art
 from model.training.checkpoint import checkpoint_path
 from model.training.material import Material
 from model.training.run_state import differences
@@ -93,8 +92,3 @@ def _check_finished(place: Path, config: Config, material: Material) -> None:
 def network_at(cell: Cell, folder: Path, step: int) -> Path:
     """The network as it was after some updates of the last stage: a checkpoint."""
     return checkpoint_path(stage_folder(cell, folder, -1), step)
-
-
-def hours_of(network: Path) -> float:
-    """Hours of training, by the clock on the wall, as the network's card states them."""
-    return load_art(network)[2].hours

@@ -1,7 +1,7 @@
 """Cells trained and judged one after another, and what is known of all of them at any time."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from artgen.core.errors import UsageError
@@ -11,7 +11,6 @@ from model.training_study.judge import Judge
 from model.training_study.scores import Score
 
 Tell = Callable[[str], None]
-BySeed = Mapping[int, Score]
 
 
 def share_of(cells: Sequence[Cell], share: str) -> Sequence[Cell]:

@@ -87,7 +87,7 @@ def test_nothing_to_see_is_background():
     none = torch.zeros(0, 3, 3)
     hits = first_hits(none, none[:, 0, 0], none[:, 0, 0].long(), channels=2, size=(3, 4))
     assert hits.code_CHW.shape == (2, 3, 4)
-    assert not hits.hit_CHW.any()
+    assert (hits.code_CHW < 0).all()
     assert not depth_of(hits.code_CHW, torch.zeros(1)).any()
 
 

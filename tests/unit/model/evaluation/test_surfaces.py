@@ -11,7 +11,6 @@ from artgen.geometry.solid import slab
 from model.evaluation.surfaces import (
     THRESHOLDS,
     Cloud,
-    chamfer_l1,
     chamfer_squared,
     compared,
     sampled,
@@ -37,12 +36,12 @@ def test_chamfer_is_what_a_double_loop_says(first: np.ndarray, second: np.ndarra
     squares = sum(g * g for g in there) / len(there) + sum(g * g for g in back) / len(back)
     # Sums of 12 numbers below 12 in another order.
     assert chamfer_squared(first, second) == pytest.approx(squares, abs=1e-13)
-    assert chamfer_l1(first, second) == pytest.approx(
-        sum(there) / len(there) + sum(back) / len(back), abs=1e-13
-    )
     normals = np.tile((0.0, 0.0, 1.0), (12, 1))
     found = compared(Cloud(first, normals[: len(first)]), Cloud(second, normals[: len(second)]))
     assert found.chamfer_squared == pytest.approx(squares, abs=1e-13)
+    assert found.accuracy == pytest.approx(sum(there) / len(there), abs=1e-13)
+    assert found.completeness == pytest.approx(sum(back) / len(back), abs=1e-13)
+    assert found.chamfer_l1 == pytest.approx(found.accuracy + found.completeness, abs=1e-13)
     for limit, score in zip(THRESHOLDS, found.f_scores, strict=True):
         p = sum(g < limit for g in there) / len(there)
         r = sum(g < limit for g in back) / len(back)
