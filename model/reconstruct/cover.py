@@ -13,6 +13,7 @@ import numpy as np
 from artgen.core.mesh import Floats
 from artgen.geometry.normals import face_vectors
 from artgen.geometry.solid import Solid, hull, union
+from model.reconstruct.clipping import points_within
 
 MOST = 8
 """Convex pieces of a cover."""
@@ -29,14 +30,16 @@ COARSE = 600
 CORNERS = 48
 """Corners of a convex piece from which they are merged."""
 OCTANTS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+SIDES = np.array([[-1.0], [1.0]])
 Convex = tuple[Solid, ...]
 
 
 def convex_cover(solid: Solid, *, tolerance: float) -> Convex:
     """Convex solids around `solid`, to `tolerance` m; cut where the hulls of both sides shrink
     most."""
-    sketch = coarse(solid, COARSE)
-    pieces: list[tuple[Solid, Solid]] = [(sketch, solid)]
+    sketch, mesh = coarse(solid, COARSE), solid.trimesh()
+    reach = float(solid.extent.max())
+    pieces: list[tuple[Solid, Floats]] = [(sketch, solid.bounds + reach * SIDES)]
     room = SPARE * sketch.hull().volume
     while len(pieces) < MOST:
         spare = [part.hull().volume - part.volume for part, _ in pieces]
@@ -46,11 +49,10 @@ def convex_cover(solid: Solid, *, tolerance: float) -> Convex:
         cut = _best_cut(pieces[worst][0], least=room / MOST)
         if cut is None:
             break
-        own, whole = pieces.pop(worst)
-        for sketched, half in zip(_split(own, *cut), _split(whole, *cut), strict=True):
-            if not half.is_empty:
-                pieces.append((half if sketched.is_empty else sketched, half))
-    return tuple(_plain_hull(whole, tolerance) for _, whole in pieces)
+        own, cell = pieces.pop(worst)
+        pieces += zip(_split(own, *cut), _halves(cell, *cut), strict=True)
+    found = (hull(points_within(mesh, cell)) for _, cell in pieces)
+    return tuple(_plain_hull(tight, tolerance) for tight in found if tight.volume > 0.0)
 
 
 def coarse(solid: Solid, triangles: int) -> Solid:
@@ -65,10 +67,9 @@ def coarse(solid: Solid, triangles: int) -> Solid:
     return solid
 
 
-def _plain_hull(solid: Solid, tolerance: float) -> Solid:
+def _plain_hull(tight: Solid, tolerance: float) -> Solid:
     """A convex solid around another, its corners merged within `tolerance` m, or within as much
     more as leaves few; what merging takes off is given back on all sides."""
-    tight = solid.hull()
     plain = tight
     reach = float(np.linalg.norm(tight.extent))
     while tolerance < 0.05 * reach:
@@ -97,6 +98,13 @@ def _split(solid: Solid, axis: int, height: float) -> tuple[Solid, Solid]:
     """What lies above and below a plane across an axis."""
     above, below = solid.manifold.split_by_plane(np.eye(3)[axis], height)
     return Solid(above), Solid(below)
+
+
+def _halves(cell: Floats, axis: int, height: float) -> tuple[Floats, Floats]:
+    """The parts of a (2, 3) box above and below a plane across an axis."""
+    above, below = cell.copy(), cell.copy()
+    above[0, axis] = below[1, axis] = height
+    return above, below
 
 
 def _best_cut(solid: Solid, *, least: float) -> tuple[int, float] | None:

@@ -2,13 +2,14 @@
 
 import math
 
+import manifold3d as m3
 import numpy as np
 import pytest
 
 from artgen.articulation.kinematics import joint_motions
 from artgen.geometry.solid import Solid, cylinder, slab
 from model.reconstruct.assemble import _stated
-from model.reconstruct.cover import MOST, coarse, convex_cover, grown, swept
+from model.reconstruct.cover import MOST, coarse, convex_cover, grown, lacking, swept
 from model.reconstruct.joints import clean_joint
 from tests.unit.model.reconstruct.perfect import joint, open_box
 
@@ -33,6 +34,23 @@ def test_a_cover_holds_its_part_and_little_else(name: str) -> None:
     assert left.volume <= 1e-12
     assert len(cover) <= MOST
     assert sum(piece.volume for piece in cover) - solid.volume <= 0.05 * solid.hull().volume
+
+
+def test_a_cover_holds_a_solid_that_crosses_itself() -> None:
+    """Merging triangles far lets surfaces pass through themselves, of which booleans lose pieces.
+    Two trays through each other as one surface: every corner of it lies in a piece."""
+    tilted = TRAY.turned("x", 0.6, about=(0.25, 0.2, 0.1)).turned("y", 0.4)
+    crossed = Solid(m3.Manifold(_joined(TRAY, tilted)))
+    pieces = grown(convex_cover(crossed, tolerance=1e-3), 1e-3)
+    points = crossed.trimesh().vertices
+    outside = [[lacking(piece, point[None]) for piece in pieces] for point in points]
+    assert np.min(outside, axis=1).max() <= 1e-9
+
+
+def _joined(one: Solid, other: Solid) -> m3.Mesh64:
+    first, second = one.trimesh(), other.trimesh()
+    faces = np.concatenate([first.faces, second.faces + len(first.vertices)])
+    return m3.Mesh64(np.concatenate([first.vertices, second.vertices]), faces.astype(np.uint64))
 
 
 def test_growing_a_box_adds_the_gap_on_every_side() -> None:
