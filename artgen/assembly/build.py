@@ -8,11 +8,9 @@ from pathlib import Path
 
 from artgen import __version__
 from artgen.assembly.harvest import (
-    EMBEDDED,
     Made,
     bundle_id,
     bundle_source,
-    embedded,
     made_source,
     refuse_assembled,
 )
@@ -20,7 +18,7 @@ from artgen.assembly.library import seal_library
 from artgen.assembly.source import Source
 from artgen.assembly.store import write_source
 from artgen.core.errors import ArtgenError, UsageError
-from artgen.core.jsonio import content_hash, file_hash, plain, write_json
+from artgen.core.jsonio import file_hash, plain, write_json
 from artgen.core.mesh import Floats, Ints
 from artgen.export.layout import MANIFEST
 from artgen.finish import RawBody
@@ -30,7 +28,7 @@ from artgen.progress import Show
 from artgen.run_folder import RunFolder
 
 EDITION = 3
-"""Of how sources are taken apart; a new one lets an embedded library on disk be built anew."""
+"""Of how sources are taken apart; a library of another one is not gone on with."""
 TIMEOUT_S = 300.0
 """A source takes under a second; a process that hangs for this long is killed."""
 
@@ -146,29 +144,6 @@ def _bundle_tasks(folder: Path, bundles: Sequence[Path]) -> tuple[list[SourceTas
             twin = f"is the same as {tasks[id].asset_id}"
             faults.append(Taken(task=str(bundle), fault=twin))
     return list(tasks.values()), faults
-
-
-def embedded_library(folder: Path, *, workers: int, show: Show, sharp: bool = False) -> Path:
-    """The embedded library in a folder, built there unless it is.
-
-    Raises:
-        ArtgenError: one of its sources could not be made; it is never used in part.
-    """
-    made = [plain(one) for one in embedded(EMBEDDED)]
-    name = content_hash([EDITION, *made])[:12] + ("-sharp" * sharp)
-    home = folder / f"library-{name}"
-    if (home / "library.json").exists():
-        return home
-    _, faults = build_library(
-        home, made=embedded(), bundles=(), workers=workers, show=show, sharp=sharp
-    )
-    if faults:
-        (home / "library.json").unlink()
-        raise ArtgenError(
-            f"{home}: {len(faults)} sources of the embedded library are missing "
-            f"({faults[0].task}: {faults[0].fault}); run again to make them"
-        )
-    return home
 
 
 def _outcomes(tasks: Sequence[SourceTask], workers: int) -> Iterator[Taken]:

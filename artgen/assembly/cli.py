@@ -12,7 +12,8 @@ import tyro
 from rich.console import Console
 from rich.table import Table
 
-from artgen.assembly.build import Taken, build_library, embedded_library
+from artgen.assembly.build import Taken, build_library
+from artgen.assembly.embedded import cache_folder, embedded_library
 from artgen.assembly.harvest import bundle_folders, embedded
 from artgen.assembly.library import Library
 from artgen.assembly.run import (
@@ -139,7 +140,7 @@ class Assemble:
     """Root of all randomness."""
     library: Path | None = None
     """A folder that `artgen library build` wrote; the embedded library if not given, which is built
-    once under OUT/work."""
+    once a machine, in artgen/ under $XDG_CACHE_HOME or ~/.cache, or in $ARTGEN_CACHE."""
     out: Path = Path("out/assembled")
     """Folder of the run; receives assets/assembled, failed/assembled, contact_sheet.png, logs."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
@@ -160,7 +161,7 @@ def assemble(argv: Sequence[str]) -> int:
     need = command.count * BYTES_PER_OBJECT
     with opened(command.out, seed=command.seed, need_bytes=need) as folder:
         place = command.library or embedded_library(
-            folder.work, workers=command.workers, show=progress
+            cache_folder(os.environ), own=folder.work, workers=command.workers, show=progress
         )
         tell_terms(opened_market(place, command.what).library, Console(soft_wrap=True))
         tasks = [

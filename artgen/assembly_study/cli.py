@@ -7,7 +7,7 @@ from pathlib import Path
 
 import tyro
 
-from artgen.assembly.build import embedded_library
+from artgen.assembly.embedded import cache_folder, embedded_library
 from artgen.assembly.run import opened_market
 from artgen.assembly_study.chunks import read_chunk, save_chunk
 from artgen.assembly_study.page import page
@@ -43,7 +43,7 @@ class Study:
     out: Path = Path("docs/studies")
     """Receives assembly.md, assembly.csv, assembly_texture.png and assembly_sheet.webp."""
     kept: Path = Path("out/assembly_study")
-    """Keeps finished tasks and the embedded library, so that an interrupted study goes on."""
+    """Keeps finished tasks, so that an interrupted study goes on."""
     workers: int = field(default_factory=lambda: os.cpu_count() or 1)
     """Processes side by side."""
 
@@ -54,7 +54,7 @@ def study(argv: Sequence[str]) -> int:
     if command.count < 2 or command.pictures < 0:
         raise UsageError(f"--count {command.count} must be at least 2, --pictures not negative")
     place = command.library or embedded_library(
-        command.kept, workers=command.workers, show=progress
+        cache_folder(os.environ), own=command.kept, workers=command.workers, show=progress
     )
     market = opened_market(place, WHAT)
     chunks = all_chunks(command, place, market.library.digest)
