@@ -75,7 +75,7 @@ def check_size(bundle: Bundle, meshes: Sequence[TriMesh], points: Floats) -> Non
     if not SIZES[0] <= size <= SIZES[1]:
         raise RenderError(
             f"{bundle.asset_id}: is {size:.3g} m across in all its states, expected "
-            f"{SIZES[0]:g} to {SIZES[1]:g} m; is its unit the metre?"
+            f"{SIZES[0]:g} to {SIZES[1]:g} m; is its unit the meter?"
         )
     away = float(np.linalg.norm((low + high) / 2.0))
     if not away <= FAR * size:

@@ -26,7 +26,7 @@ Made by `artgen study coverage --count {count} --seed {seed}`: {count} seeds of 
 - **nearest neighbor**: the share of pixels in which an object differs from the most similar of the
   others, least and median over the category. Pixels are those of {maps} depth maps of {pixels} x
   {pixels} (front, two three-quarter views and top, at rest and open) that show one of the two;
-  depths differ from {step:.1%} of a map's side. All pairs are compared, in metres: no scale is
+  depths differ from {step:.1%} of a map's side. All pairs are compared, in meters: no scale is
   divided out.
 - **twins**: objects that differ from another in {twin:.0%} of the pixels at most. Their materials,
   decals and small details may differ.

@@ -90,7 +90,7 @@ def _half_turned(lines: Lines) -> Lines:
 MESH_DEFECTS = tuple(
     Defect(name=name, format="urdf", what=what, plant=plant)
     for name, what, plant in (
-        ("mesh_mm", "vertices in millimetres", scaled((1000.0, 1000.0, 1000.0))),
+        ("mesh_mm", "vertices in millimeters", scaled((1000.0, 1000.0, 1000.0))),
         ("mesh_wide", "a part 5 % too wide for its opening", scaled((1.05, 1.0, 1.0))),
         ("mesh_mirrored", "mirrored, winding not mended", scaled((-1.0, 1.0, 1.0))),
         ("mesh_flat", "squashed to a plane", scaled((1.0, 0.0, 1.0))),

@@ -62,7 +62,7 @@ MOTION = (
         "the pivot lies 50 mm beside the edge",
         shifted("origin", "xyz", (0.05, 0.05, 0)),
     ),
-    ("pivot_mm", "a pivot in millimetres", shifted("origin", "xyz", (500.0, 0, 0))),
+    ("pivot_mm", "a pivot in millimeters", shifted("origin", "xyz", (500.0, 0, 0))),
     ("pivot_nan", "a pivot that is not a number", on_joint("origin", "xyz", "nan 0 0")),
     ("limits_swapped", "lower above upper", limits_times(-1.0, "revolute", "prismatic")),
     ("limits_equal", "a joint that cannot move", limits_times(0.0, "revolute", "prismatic")),
@@ -111,9 +111,9 @@ MASS = (
     ("inertia_tenfold", "density forgotten", inertia_set(lambda tensor, mass: 10.0 * tensor)),
     ("inertia_grams_mm", "g mm2 read as kg m2", inertia_set(lambda tensor, mass: 1e9 * tensor)),
     ("inertia_identity", "the exporter's default", inertia_set(lambda tensor, mass: np.eye(3))),
-    ("inertia_about_origin", "not about the centre of mass", in_tree(about_link_origin)),
-    ("center_at_origin", "centre of mass at the hinge", on_link("inertial/origin", "xyz", "0 0 0")),
-    ("center_far", "centre of mass outside", on_link("inertial/origin", "xyz", "0.9 0.9 0.9")),
+    ("inertia_about_origin", "not about the center of mass", in_tree(about_link_origin)),
+    ("center_at_origin", "center of mass at the hinge", on_link("inertial/origin", "xyz", "0 0 0")),
+    ("center_far", "center of mass outside", on_link("inertial/origin", "xyz", "0.9 0.9 0.9")),
 )
 CONTACT = (
     ("collision_missing", "no collision on a moving link", without("collision", of_joint=False)),
@@ -156,7 +156,7 @@ CONTACT = (
     ),
     (
         "visual_scale",
-        "a mesh in millimetres",
+        "a mesh in millimeters",
         on_link("visual/geometry/mesh", "scale", "0.001 0.001 0.001"),
     ),
 )

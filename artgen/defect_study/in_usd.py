@@ -119,7 +119,7 @@ USD_DEFECTS = tuple(
             "no body has this inertia",
             on_part("physics:diagonalInertia", Gf.Vec3f(1, 1, 3)),
         ),
-        ("units", "centimetres", in_stage(lambda s: UsdGeom.SetStageMetersPerUnit(s, 0.01))),
+        ("units", "centimeters", in_stage(lambda s: UsdGeom.SetStageMetersPerUnit(s, 0.01))),
         ("up_axis", "y is up", in_stage(lambda s: UsdGeom.SetStageUpAxis(s, "Y"))),
         ("points_cut", "faces of points that are not there", in_stage(points_cut)),
     )

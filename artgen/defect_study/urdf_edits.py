@@ -201,7 +201,7 @@ def inertia_set(change: Callable[[Floats, float], Floats]) -> Plant:
 
 
 def about_link_origin(root: ET.Element) -> None:
-    """The tensor about the link's origin, where the format wants it about the centre of mass."""
+    """The tensor about the link's origin, where the format wants it about the center of mass."""
     inertial = below(child_link(root, joint(root)), "inertial")
     x = numbers(below(inertial, "origin"), "xyz")
     shift = float(x @ x) * np.eye(3) - np.outer(x, x)

@@ -184,7 +184,7 @@ def measure_acceptance(root: Path) -> list[tuple[str, int, int]]:
 
 HEADER = (
     *("category", "assets", "passed", "build + finish + export, CPU s", "validate, CPU s"),
-    *("triangles", "bundle, MB", "files", "texels a metre, greatest over least"),
+    *("triangles", "bundle, MB", "files", "texels a meter, greatest over least"),
     *("atlas that two places share", "render 4 x 2 at 128 px, wall s"),
 )
 

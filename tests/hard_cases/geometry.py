@@ -167,7 +167,7 @@ CASES = (
     ),
     HardCase(
         name="scales from 1e-3 to 1e2",
-        reason="assets in millimetres, and rooms",
+        reason="assets in millimeters, and rooms",
         error=scales,
         bound=1e4 * EPS,
         unit="relative",

@@ -153,7 +153,7 @@ def test_sizes_that_cannot_be_rendered_are_told(bundle: Bundle, factor: float) -
     meshes = [bundle.load_mesh(part.name) for part in bundle.parts]
     corners = np.array([[0.0, 0.0, 0.0], [0.6, 0.0, 0.8]])
     check_size(bundle, meshes, corners)
-    with pytest.raises(RenderError, match="is its unit the metre"):
+    with pytest.raises(RenderError, match="is its unit the meter"):
         check_size(bundle, meshes, corners * factor)
     with pytest.raises(RenderError, match="move it to the origin"):
         check_size(bundle, meshes, corners + 200.0)
