@@ -23,6 +23,8 @@ Plan = Literal["replicas", "shards"]
 
 TIMEOUT = timedelta(minutes=10)
 """A rank that stays away longer is taken for dead."""
+PATIENCE = timedelta(days=2)
+"""Thousands of objects take hours to make, while all but the leading rank have nothing to do."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,12 +33,14 @@ class Team:
 
     Attributes:
         plan: how weights are held where there is more than one process.
+        patient: the same processes, who wait as long as `PATIENCE`; None where there is one.
     """
 
     rank: int = 0
     world: int = 1
     device: torch.device = field(default_factory=lambda: torch.device("cpu"))
     plan: Plan = "replicas"
+    patient: dist.ProcessGroup | None = None
 
     @property
     def leads(self) -> bool:
@@ -60,7 +64,13 @@ def joined(
         return
     dist.init_process_group("nccl" if place.type == "cuda" else "gloo", timeout=TIMEOUT)
     try:
-        yield Team(rank=dist.get_rank(), world=dist.get_world_size(), device=place, plan=plan)
+        yield Team(
+            rank=dist.get_rank(),
+            world=dist.get_world_size(),
+            device=place,
+            plan=plan,
+            patient=dist.new_group(backend="gloo", timeout=PATIENCE),
+        )
     finally:
         dist.destroy_process_group()
 
@@ -117,6 +127,12 @@ def wait_for_all(team: Team) -> None:
     """Return once every rank has come here."""
     if team.world > 1:
         dist.barrier()
+
+
+def wait_for_leader(team: Team) -> None:
+    """The same, where the leading rank may take hours; if it dies, `torchrun` ends the others."""
+    if team.patient is not None:
+        dist.barrier(group=team.patient)
 
 
 def local(tensor: Tensor) -> Tensor:

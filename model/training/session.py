@@ -32,7 +32,14 @@ from model.training.art_file import (
     save_art,
     stored_type,
 )
-from model.training.distributed import Plan, Team, joined, wait_for_all, whole
+from model.training.distributed import (
+    Plan,
+    Team,
+    joined,
+    wait_for_all,
+    wait_for_leader,
+    whole,
+)
 from model.training.idle import idle_line, idle_terms
 from model.training.material import (
     SCENES,
@@ -126,7 +133,7 @@ def _opened(
     """What to learn from; the rank that leads makes what is to be made."""
     if team.leads:
         make_missing(material, folder, config.data, show=show)
-    wait_for_all(team)
+    wait_for_leader(team)
     return opened(material, folder, config.data)
 
 

@@ -4,12 +4,14 @@ import os
 import socket
 import warnings
 from collections.abc import Callable, Iterator
+from datetime import timedelta
 from pathlib import Path
 from typing import Any
 
 import pytest
 import torch
 import torch._dynamo  # Sharding asks for it: once here, not in every forked rank.
+from torch.distributed import ProcessGroup
 
 import model.training.objective
 import model.training.session
@@ -20,7 +22,7 @@ from model.data.items import Source
 from model.data.loader import batches
 from model.training.art_file import load_art
 from model.training.checkpoint import Checkpoint, found_checkpoints, read_checkpoint
-from model.training.distributed import Plan, Team, joined
+from model.training.distributed import PATIENCE, TIMEOUT, Plan, Team, joined, wait_for_leader
 from model.training.log import read_lines
 from model.training.material import Material
 from model.training.run_state import resume
@@ -31,6 +33,7 @@ from tests.unit.model.tiny_run import CONFIG, STEPS, exit_status, tiny_run, tiny
 from tests.unit.model.tiny_session import TINY, laptop_material
 
 EPS = torch.finfo(torch.float64).eps
+CPU = torch.device("cpu")
 
 
 def port() -> int:
@@ -193,6 +196,22 @@ def assert_same_losses(one: Path, other: Path) -> None:
         assert ours.keys() == theirs.keys()
         for key in ours.keys() - {"seconds"}:
             assert ours[key] == pytest.approx(theirs[key], rel=1e-5)
+
+
+def test_ranks_wait_for_the_leader_longer_than_for_each_other() -> None:
+    """Making thousands of objects takes it longer than the limit at which a rank counts as dead."""
+
+    def limit(group: ProcessGroup | None) -> timedelta | None:
+        return None if group is None else group._get_backend(CPU).options._timeout
+
+    def work() -> None:
+        with joined(os.environ, device="cpu") as team:
+            assert limit(team.patient) == PATIENCE
+            assert limit(torch.distributed.group.WORLD) == TIMEOUT
+            wait_for_leader(team)
+
+    in_processes(2, work)
+    wait_for_leader(Team())
 
 
 def test_one_process_alone_is_a_team(tmp_path: Path) -> None:
