@@ -55,8 +55,8 @@ class Rig:
     """All shots of one object.
 
     Attributes:
-        front_stated: whether -y of the world is the object's front; else the first camera stands
-            there, and what the network says decides.
+        front_stated: whether z of the world is up and -y the object's front; else the first camera
+            stands there, and what the network says decides.
         center: (3,) middle of the object's sphere in the world; None where it is not stated.
         radius: of that sphere, in the file's unit; None likewise.
         meters: one unit of length in m.

@@ -1,6 +1,7 @@
 """NeRF's `transforms.json`: poses `world_from_camera` with OpenGL axes (x right, y up, z back).
 
-Written by Blender's exporters, instant-ngp and nerfstudio. Keys: `frames` with `file_path` and
+Written by Blender's exporters, instant-ngp and nerfstudio. The world of a scene is upright; that of
+photographs is any, as COLMAP's, from which it was converted. Keys: `frames` with `file_path` and
 `transform_matrix`; `camera_angle_x`, or `fl_x`, `fl_y`, `cx`, `cy`, for all frames or for each; and
 ours: `state` (or `time`) of a frame.
 """
@@ -30,11 +31,19 @@ from model.reconstruct.stated import (
 )
 
 SUFFIXES = ("", ".png", ".jpg", ".jpeg", ".webp")
+LEVEL = 1e-3
+"""Height of a camera's right of length one, above which the camera is tilted sideways: scenes are
+written to float32's 1e-6, and nobody holds all cameras to a twentieth of a degree."""
+PHOTOGRAPHED = frozenset({"applied_transform", "orientation_override", "ply_file_path"})
+"""Keys of nerfstudio, where it converts what COLMAP found of photographs."""
+FRAME_PHOTOGRAPHED = frozenset({"colmap_im_id", "sharpness"})
+"""Keys of a frame of nerfstudio and of instant-ngp there."""
 DISTORTION = ("k1", "k2", "k3", "k4", "p1", "p2")
 
 
 def rig_of_transforms(path: Path, stated: Mapping[str, Any], images: Path) -> Rig:
-    """The rig of a `transforms.json`; its world is z up, as Blender's.
+    """The rig of a `transforms.json`. Its world is z up and its front -y, as Blender's, unless it
+    was made of photographs.
 
     Raises:
         ModelError: a key is missing or its value is not what it must be, an image has distortion,
@@ -48,7 +57,15 @@ def rig_of_transforms(path: Path, stated: Mapping[str, Any], images: Path) -> Ri
     shots = tuple(
         _shot(path, stated, frame, f"frames[{k}]", images, times) for k, frame in enumerate(frames)
     )
-    return Rig(file=path, shots=shots)
+    return Rig(file=path, shots=shots, front_stated=not _photographed(stated, shots))
+
+
+def _photographed(stated: Mapping[str, Any], shots: Sequence[Shot]) -> bool:
+    """Whether the cameras were found from photographs, in a world that may lie in any way: keys of
+    converters tell, and cameras that are tilted sideways, as those of scenes are not."""
+    tilted = any(abs(shot.camera_from_world[0, 2]) > LEVEL for shot in shots)
+    marked = any(FRAME_PHOTOGRAPHED & frame.keys() for frame in stated["frames"])
+    return tilted or marked or bool(PHOTOGRAPHED & stated.keys())
 
 
 NEEDED = ("file_path", "transform_matrix")

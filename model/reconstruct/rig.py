@@ -27,7 +27,8 @@ def read_rig(cameras: Path, images: Path) -> Rig:
         return upright(rig_of_colmap(cameras if cameras.is_dir() else cameras.parent))
     stated = read_json(cameras)
     if "frames" in stated:
-        return rig_of_transforms(cameras, stated, images)
+        rig = rig_of_transforms(cameras, stated, images)
+        return rig if rig.front_stated else upright(rig)
     if stated.get("schema") != SCHEMA:
         raise ModelError(
             f"{cameras}: schema {stated.get('schema')!r}, expected {SCHEMA!r}, a NeRF "

@@ -15,7 +15,7 @@ from artgen.core.errors import ModelError
 from artgen.core.mesh import Floats
 from artgen.core.rotation import axis_angle_matrix
 from artgen.core.transform import inverted
-from model.reconstruct.cameras import OPENCV_FROM_OPENGL, SCHEMA
+from model.reconstruct.cameras import OPENCV_FROM_OPENGL, SCHEMA, Rig
 from model.reconstruct.rig import read_rig, up_of
 
 SIZE = (64, 48)
@@ -115,6 +115,52 @@ def test_transforms_of_nerf_state_the_same(tmp_path: Path, shots: list[Camera]) 
         assert np.abs(shot.camera_from_world - camera.camera_from_world).max() <= 1e-13
 
 
+def in_world(folder: Path, shots: list[Camera], turn: Floats, *, mark: str = "") -> Path:
+    """`transforms` in a world that is turned, with a key of a converter; for "frame." in frames."""
+    path = transforms(folder, shots)
+    stated = json.loads(path.read_text())
+    for frame in stated["frames"]:
+        frame["transform_matrix"] = (turn @ np.array(frame["transform_matrix"])).tolist()
+        if mark.startswith("frame."):
+            frame[mark.removeprefix("frame.")] = 7
+    return written(path, {**stated, mark: 7} if mark and "." not in mark else stated)
+
+
+def test_a_scene_of_nerf_states_up_and_front(tmp_path: Path, shots: list[Camera]) -> None:
+    """Rounded to float32 as Blender writes it, or with what exporters for instant-ngp add."""
+    path = transforms(tmp_path, shots)
+    stated = json.loads(path.read_text())
+    for frame in stated["frames"]:
+        frame["transform_matrix"] = np.float32(frame["transform_matrix"]).tolist()
+        frame["rotation"] = 0.01
+    written(path, {**stated, "aabb_scale": 16, "w": SIZE[0], "h": SIZE[1]})
+    rig = read_rig(path, tmp_path)
+    assert rig.front_stated
+    assert np.abs(rig.shots[1].camera_from_world - shots[1].camera_from_world).max() <= 1e-6
+
+
+@pytest.mark.parametrize(
+    ("mark", "turned"),
+    [("", True), ("applied_transform", True), ("ply_file_path", False),
+     ("frame.sharpness", False), ("frame.colmap_im_id", True)],
+)  # fmt: skip
+def test_photographs_of_nerf_are_set_upright_as_those_of_colmap(
+    mark: str, turned: bool, tmp_path: Path, shots: list[Camera]
+) -> None:
+    """Found: their world, which lies in any way, was taken for upright with its front at -y."""
+    turn = any_turn() if turned else np.eye(4)
+    rig = read_rig(in_world(tmp_path, shots, turn, mark=mark), tmp_path)
+    assert not rig.front_stated
+    assert_first_in_front(rig)
+
+
+def assert_first_in_front(rig: Rig) -> None:
+    turn = math.radians(80.0)
+    for shot, azimuth in zip(rig.shots, (0.0, turn, 2.5 * turn), strict=True):
+        assert np.abs(shot.camera_from_world[0, 2]) <= 1e-9  # its right is level
+        assert np.abs(shot.camera_from_world[:3, :3] - _looking(azimuth)).max() <= 1e-9
+
+
 def any_turn() -> Floats:
     turn = np.eye(4)
     turn[:3, :3] = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
@@ -127,12 +173,7 @@ def test_a_turned_world_of_colmap_is_set_upright(tmp_path: Path, shots: list[Cam
     sideways, so up is found to some roundings; the first camera looks from the front."""
     rig = read_rig(colmap(tmp_path, shots, any_turn()), tmp_path)
     assert not rig.front_stated
-    turn = math.radians(80.0)
-    for shot, azimuth in zip(rig.shots, (0.0, turn, 2.5 * turn), strict=True):
-        eye = inverted(shot.camera_from_world)[:3, 3]
-        assert np.abs(shot.camera_from_world[0, 2]) <= 1e-9  # its right is level
-        assert np.abs(shot.camera_from_world[:3, :3] - _looking(azimuth)).max() <= 1e-9
-        assert np.isfinite(eye).all()
+    assert_first_in_front(rig)
 
 
 def _looking(azimuth: float) -> Floats:
