@@ -65,3 +65,14 @@ def test_all_parts_at_once_are_each_on_its_own() -> None:
     assert torch.equal(
         field.distances(points.flatten(0, 1), torch.arange(8)), distance.flatten(0, 1)
     )
+
+
+def test_slopes_are_right() -> None:
+    """Outside beside a face, an edge and a corner, and inside."""
+    offset = torch.tensor(
+        [[0.7, 0.02, 0.05], [0.6, 0.3, 0.1], [-0.5, 0.2, -0.6], [0.1, 0.02, -0.03]],
+        dtype=torch.float64,
+        requires_grad=True,
+    )
+    half = torch.tensor([0.4, 0.1, 0.25], dtype=torch.float64, requires_grad=True)
+    assert torch.autograd.gradcheck(box_distance, (offset, half))

@@ -166,6 +166,14 @@ def test_gradients_of_spans_and_rays() -> None:
     half = torch.tensor([[[0.5, 0.4, 0.6]]], dtype=torch.float64)
     inputs = [value.requires_grad_() for value in (origin, direction, center, half)]
     assert torch.autograd.gradcheck(box_span, inputs)
+    lines = [value.requires_grad_() for value in (origin.detach(), direction.detach())]
+    assert torch.autograd.gradcheck(plucker, lines)
+    assert torch.autograd.gradcheck(lambda values: waves(values, 3), lines[:1])
+    # One side takes the share, one the margin, and one, of no length, the margin from zero.
+    size = torch.tensor([[[2.0, 0.1, 0.0]]], dtype=torch.float64)
+    assert torch.autograd.gradcheck(
+        lambda values: half_sides(values, Growth(share=0.1, margin=0.02)), [size.requires_grad_()]
+    )
     camera = house_camera(0)
     matrices = (torch.tensor(camera.intrinsics), torch.tensor(camera.camera_from_world))
     pixels = pixel_middles(1, 2).double()

@@ -108,4 +108,6 @@ def test_gradients() -> None:
     other = torch.tensor([0.1, -0.02, 0.0200001, -0.4], dtype=torch.float64, requires_grad=True)
     sharpness = torch.tensor(40.0, dtype=torch.float64, requires_grad=True)
     assert torch.autograd.gradcheck(laplace_density, (distance, sharpness))
+    depth = torch.tensor([0.1, 3.0, UNSEEN + 1.0], dtype=torch.float64, requires_grad=True)
+    assert torch.autograd.gradcheck(fading, (depth,))
     assert torch.autograd.gradcheck(mean_density, (distance, other, sharpness), atol=2e-4)

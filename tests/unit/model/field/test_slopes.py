@@ -55,3 +55,25 @@ def test_steepness_teaches_a_network() -> None:
     assert isinstance(last, torch.nn.Linear)
     assert last.weight.grad is not None
     assert last.weight.grad.abs().max() > 0.0
+
+
+def test_steepness_has_the_right_slopes() -> None:
+    """With respect to planes and places; both sides of a plane blend, as differences know no jumps.
+
+    Distances have differences over STEP in them, so steps of gradcheck's own 1e-6 are small.
+    """
+    torch.manual_seed(0)
+    head = FieldHead(FieldConfig(hidden=3, layers=1, octant_blend=2.0), 2).double()
+    for parameter in head.parameters():
+        torch.nn.init.normal_(parameter, std=0.5)
+        parameter.requires_grad_(False)
+    size = torch.tensor([[[1.0, 0.6, 0.8]]], dtype=torch.float64)
+    half_S3 = half_sides(size, Growth()).flatten(0, 1)
+
+    def steep(planes: torch.Tensor, points: torch.Tensor) -> torch.Tensor:
+        field = PlaneField(planes, size, head)
+        return steepness(slopes(field, points, torch.tensor([0]), half_S3))
+
+    planes = torch.randn(1, 1, 6, 2, 2, 2, dtype=torch.float64, requires_grad=True)
+    points = (torch.rand(1, 3, 3, dtype=torch.float64) * 1.6 - 0.8).requires_grad_()
+    assert torch.autograd.gradcheck(steep, (planes, points))

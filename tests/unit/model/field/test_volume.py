@@ -301,6 +301,42 @@ def test_boxes_without_thickness_are_grown_or_unseen() -> None:
         assert torch.isfinite(seen.rgb_BR3).all()
 
 
+@pytest.mark.parametrize("growth", [Growth(), NO_GROWTH])
+@pytest.mark.parametrize("flat", [None, 0, 1])
+def test_slopes_are_finite_along_faces_and_in_boxes_without_thickness(
+    growth: Growth, flat: int | None
+) -> None:
+    """Rays along y: through the middle, in the faces x and z of the base's box and in its edge, a
+    hair beside them, and past it; boxes as they are, or without thickness along x or along y."""
+    articulation = cabinet()
+    size = articulation.size_BP3.clone()
+    if flat is not None:
+        size[..., flat] = 0.0
+    given = {name: getattr(articulation, name) for name in JOINTS + BOXES} | {"size_BP3": size}
+    given = {name: value.clone().requires_grad_() for name, value in given.items()}
+    half = half_sides(size, growth)[0, 0]
+    x = torch.tensor([0.0, 1.0, 0.0, 1.0, 1.0 - 1e-7, 1.0 + 1e-7, 3.0]) * half[0]
+    z = torch.tensor([0.0, 0.0, 1.0, 1.0, 1.0, 1.0, 0.0]) * half[2]
+    origin = torch.stack([x, torch.full_like(x, -3.0), z], dim=-1)[None]
+    direction = torch.tensor([0.0, 1.0, 0.0]).expand_as(origin)
+    seen = render_along(
+        *(box_field(articulation), changed(articulation, **given), origin, direction),
+        torch.zeros(1, len(x), dtype=torch.long),
+        inverse_beta=SHARP,
+        samples=6,
+        coarse=6,
+        growth=growth,
+        stop_gradient=False,
+    )
+    total = sum(getattr(seen, field.name).sum() for field in dataclasses.fields(seen))
+    assert torch.isfinite(total)
+    for name, slope in zip(given, torch.autograd.grad(total, list(given.values())), strict=True):
+        assert torch.isfinite(slope).all(), name
+    if flat is None:
+        assert seen.part_alpha_BPR[0, 0, 0] > 0.99
+        assert not seen.part_alpha_BPR[0, 0, 6]
+
+
 def test_two_parts_in_one_place_hide_each_other_evenly() -> None:
     """Every sample coincides with one of the other: together as opaque as twice the depth."""
     articulation = cabinet(slots=4)

@@ -108,3 +108,30 @@ def test_boxes_become_as_tight_as_what_fields_hold() -> None:
     torch.testing.assert_close(found.size_BP3, articulation.size_BP3, rtol=0, atol=2 * half_cell)
     torch.testing.assert_close(found.center_BP3, articulation.center_BP3, rtol=0, atol=half_cell)
     assert found.valid_BP.all()
+
+
+class Posed(torch.nn.Module):
+    """Where the parts of a guess are."""
+
+    def __init__(self, guess: Guess) -> None:
+        super().__init__()
+        self.guess = guess
+
+    def forward(self) -> torch.Tensor:
+        return world_from_rest(self.guess.articulation())
+
+
+def test_slopes_of_joints_are_right_and_finite_at_rest() -> None:
+    """A twist is an axis times a motion; where it is zero, neither has a direction."""
+    posed = Posed(guesses(states=3, types=(FIXED, PRISMATIC, REVOLUTE)).double())
+    names = ("twist_GP3", "origin_GP3", "share_GTP")
+
+    def poses(*values: torch.Tensor) -> torch.Tensor:
+        own = {f"guess.{name}": value for name, value in zip(names, values, strict=True)}
+        return torch.func.functional_call(posed, own, ())
+
+    start = [getattr(posed.guess, name).detach().clone().requires_grad_() for name in names]
+    assert torch.autograd.gradcheck(poses, start, fast_mode=True)
+    start[0] = torch.zeros_like(start[0]).requires_grad_()
+    for slope in torch.autograd.grad(poses(*start).sum(), start):
+        assert torch.isfinite(slope).all()

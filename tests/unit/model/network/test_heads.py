@@ -146,3 +146,11 @@ def test_counts_do_not_depend_on_the_order_of_images() -> None:
     assert logits.shape == (2, SLOTS)
     # Sums over 12 tokens in another order, four matrices deep.
     torch.testing.assert_close(head(image[:, [2, 0, 1]]), logits, rtol=0, atol=1e-12)
+
+
+def test_slopes_of_the_count_head_are_right() -> None:
+    torch.manual_seed(4)
+    head = CountHead(TINY).double()
+    torch.nn.init.normal_(head.query_QD)
+    image = torch.randn(1, 2, 2, 16, dtype=torch.float64, requires_grad=True)
+    assert torch.autograd.gradcheck(head, image)

@@ -62,6 +62,19 @@ def test_slopes_are_right(seed: int) -> None:
     assert torch.autograd.gradcheck(overlap, inputs)
 
 
+def test_slopes_are_right_of_boxes_apart_within_and_around() -> None:
+    """Beside each other, far apart, each within the other, and thinner than counts."""
+    places = [[1.5, 0.1, 0.0], [9.0, 5.0, 3.0], [0.05, 0.02, 0.01], [0.04, 0.01, 0.03], [0.1, 0, 0]]
+    sides = [[0.4, 0.5, 0.6], [0.4, 0.5, 0.6], [0.2, 0.3, 0.1], [3.0, 4.0, 5.0], [0.5, 1e-4, 0.7]]
+    center, size = (torch.tensor(rows, dtype=torch.float64) for rows in (places, sides))
+    second = boxes(torch.zeros_like(center), torch.ones_like(size))
+
+    def overlap(center: Tensor, size: Tensor) -> Tensor:
+        return generalized_iou(boxes(center, size), second)
+
+    assert torch.autograd.gradcheck(overlap, (center.requires_grad_(), size.requires_grad_()))
+
+
 def test_a_box_far_off_is_drawn_nearer() -> None:
     """Plain IoU is flat where boxes do not meet."""
     center = torch.tensor([[3.0, 0.0, 0.0]], dtype=torch.float64, requires_grad=True)

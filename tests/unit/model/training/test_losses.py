@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 import torch
@@ -21,6 +22,7 @@ from model.training.losses import (
     losses,
     mean,
     motion_error,
+    part_perceptual,
     path_lengths,
 )
 from tests.unit.model.box_scenes import box_field, cabinet
@@ -131,11 +133,18 @@ def from_leaves(truth: Articulation, numbers: dict[str, Tensor]) -> Prediction:
     )
 
 
-@pytest.mark.parametrize("origin_to", ["point", "line"])
-@pytest.mark.parametrize("axis_sign", ["data", "free"])
-def test_slopes_of_the_articulation_terms_are_right(origin_to: str, axis_sign: str) -> None:
+@pytest.mark.parametrize(
+    "reading",
+    [
+        {},
+        {"origin_to": "line", "axis_sign": "free"},
+        {"motion_as": "paths", "unmoved": 0.1},
+        {"origin_to": "line", "axis_sign": "free", "motion_as": "paths"},
+    ],
+)
+def test_slopes_of_the_articulation_terms_are_right(reading: dict[str, Any]) -> None:
     truth = drawn_truth(3)
-    weights = LossWeights(origin_to=origin_to, axis_sign=axis_sign)  # type: ignore[arg-type]
+    weights = LossWeights(**reading)
     numbers = leaves(truth, 3)
     names = list(numbers)
 
@@ -159,6 +168,23 @@ def test_slopes_of_the_image_terms_are_right() -> None:
 
     inputs = [(getattr(right, name) * 0.9 + 0.01).requires_grad_() for name in names]
     assert torch.autograd.gradcheck(terms, inputs)
+
+
+def test_slopes_of_the_perceptual_term_are_right() -> None:
+    batch = drawn_batch(4, rays=8)
+    rays = patches_of(batch.rays, 2, 2)
+    right = seen(rays)
+
+    def term(part_rgb: Tensor) -> Tensor:
+        rendered = dataclasses.replace(right, part_rgb_BPR3=part_rgb)
+        return part_perceptual(rendered, rays, batch.truth.valid_BP, _unlike)
+
+    assert torch.autograd.gradcheck(term, [(0.9 * right.part_rgb_BPR3 + 0.01).requires_grad_()])
+
+
+def _unlike(ours: Tensor, theirs: Tensor) -> Tensor:
+    """Differences of neighboring pixels, so that it matters which lies beside which."""
+    return (ours.diff(dim=-1) - theirs.diff(dim=-1)).square().sum(dim=(1, 2, 3))
 
 
 def slopes(truth: Articulation, weights: LossWeights = ALL) -> dict[str, Tensor]:
@@ -322,7 +348,8 @@ def test_motion_counts_as_much_as_the_other_terms() -> None:
     assert float(motion) > float(losses(shifted, batch, weights)["center"])
 
 
-def patches_of(rays: Rays, height: int, width: int) -> Rays:
+def patches_of(rays: Rays | None, height: int, width: int) -> Rays:
+    assert rays is not None
     return dataclasses.replace(rays, patch=(height, width))
 
 
