@@ -86,7 +86,7 @@ class Evaluate:
     mask_pixels: int = 96
     """Side of the images for mask IoU; 0 leaves masks out."""
     handles: bool = True
-    """Whether parts labelled `handle` count in SINGAPO's published metrics."""
+    """Whether parts labeled `handle` count in SINGAPO's published metrics."""
     gates: bool = True
     """Whether bundles, URDFs and what a network predicts are loaded and driven in MuJoCo."""
     lpips: Path | None = None
