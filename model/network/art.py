@@ -79,10 +79,11 @@ class Art(nn.Module):
                 f"{valid_BP.shape[1]} parts; this network has {self.config.slots} slots, base "
                 "included; ask for fewer"
             )
-        image_BFND = self.images(images)
+        # What blocks add to is kept in float32: bfloat16 would round away most of what they add.
+        image_BFND = full(self.images(images))
         objects, states = images.rgb_BTV3HW.shape[:2]
         state_TE = self.images.state.weight[:states]
-        part_BPKD = self.slots(objects, valid_BP.shape[1], state_TE).to(image_BFND.dtype)
+        part_BPKD = full(self.slots(objects, valid_BP.shape[1], state_TE))
         _, read_BPKD = self.trunk(image_BFND, part_BPKD, valid_BP)
         slot_BPD, by_state, places = self.slots.split(read_BPKD)
         with full_precision(slot_BPD):
