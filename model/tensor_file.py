@@ -13,11 +13,11 @@ from typing import Any
 
 import torch
 from safetensors import SafetensorError, safe_open
-from safetensors.torch import save_file
+from safetensors.torch import save
 from torch import Tensor
 
 from artgen.core.errors import ModelError
-from artgen.core.jsonio import canonical_json, replace_atomically
+from artgen.core.jsonio import canonical_json, write_bytes
 
 KEY = "artgen"
 """Of the safetensors header."""
@@ -30,7 +30,8 @@ def write_tensors(
     whole = {name: tensor.detach().cpu().contiguous().clone() for name, tensor in tensors.items()}
     # One key: safetensors writes several in an order that changes from run to run.
     header = canonical_json({"schema": schema, "meaning": meaning, "digest": _digest(whole)})
-    replace_atomically(path, lambda partial: save_file(whole, partial, metadata={KEY: header}))
+    # As bytes: safetensors writes files that nobody but their owner may read, and flushes none.
+    write_bytes(path, save(whole, metadata={KEY: header}))
 
 
 def read_tensors(path: Path, *, schema: str) -> tuple[dict[str, Tensor], dict[str, Any]]:

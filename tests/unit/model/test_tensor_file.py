@@ -38,6 +38,13 @@ def test_equal_content_gives_equal_bytes(tmp_path: Path) -> None:
     assert written(tmp_path).read_bytes() == first
 
 
+def test_who_may_read_other_files_of_the_folder_may_read_it(tmp_path: Path) -> None:
+    """A network that a colleague is to use on the same machine."""
+    plain = tmp_path / "plain"
+    plain.touch()
+    assert written(tmp_path).stat().st_mode == plain.stat().st_mode
+
+
 def test_every_truncation_is_told(tmp_path: Path) -> None:
     path = written(tmp_path)
     whole = path.read_bytes()
