@@ -7,6 +7,7 @@ import ast
 import importlib.util
 import re
 import shlex
+import tomllib
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import get_args, get_type_hints
@@ -35,6 +36,8 @@ from tests.documents import (
 
 PACKAGES = ("artgen", "renders", "model", "blender_scripts", "category_rules", "tests")
 SOURCES = [path for name in PACKAGES for path in (ROOT / name).rglob("*.py")]
+DOCS = ROOT / "docs"
+BLOCKS = re.MULTILINE | re.DOTALL
 TARGETS = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), flags=re.MULTILINE))
 pages = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 
@@ -92,6 +95,23 @@ def test_what_is_not_understood_is_found() -> None:
     ):
         with pytest.raises((SystemExit, AssertionError)):
             check_command(command)
+
+
+@pytest.mark.parametrize("page", ["art_model", "validation"])
+def test_programs_that_need_no_files_run(page: str) -> None:
+    (program,) = re.findall(r"^```python\n(.*?)^```$", (DOCS / f"{page}.md").read_text(), BLOCKS)
+    exec(compile(program, page, "exec"), {})
+
+
+def test_the_rule_that_is_shown_is_the_one_that_ships() -> None:
+    """Shortened: fewer parameters, the source cut off; what is shown of it is equal."""
+    (text,) = re.findall(r"^```toml\n(.*?)^```$", (DOCS / "add_a_category.md").read_text(), BLOCKS)
+    shown = tomllib.loads(text)
+    rule = tomllib.loads((ROOT / "category_rules" / "toolbox.toml").read_text())
+    assert shown["category"] == rule["category"]
+    for table in ("band", "sample"):
+        kept = {key: value for key, value in shown[table].items() if key != "source"}
+        assert kept == {key: rule[table][key] for key in kept}
 
 
 @pages

@@ -16,6 +16,7 @@ from tests.unit.dataset.scenes import made_sample, with_extras
 
 DOCUMENT = (Path(__file__).parents[3] / "docs" / "shard_format.md").read_text(encoding="utf-8")
 (SQL,) = re.findall(r"```sql\n(.*?)```", DOCUMENT, flags=re.DOTALL)
+README = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
 READER, QUERY = re.findall(r"```python\n(.*?)```", DOCUMENT, flags=re.DOTALL)
 
 
@@ -40,6 +41,15 @@ def test_both_queries_find_the_wide_laptops(capsys):
     # The laptop that failed validation opens that wide too; each query prints each name once.
     assert all(said.count(name) == 2 for name in [*WIDE, "laptop_000004"])
     assert "laptop_000001" not in said
+
+
+@pytest.mark.usefixtures("in_run")
+def test_the_programs_of_the_readme_run(capsys):
+    (reader,) = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
+    exec(compile(reader, "README.md", "exec"), {})
+    assert "laptop_000002 (" in capsys.readouterr().out
+    (query,) = re.findall(r"```sql\n(.*?)```", README, flags=re.DOTALL)
+    assert {*WIDE} <= {name for (name,) in duckdb.sql(query).fetchall()}
 
 
 @pytest.mark.usefixtures("in_run")
