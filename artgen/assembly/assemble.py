@@ -8,7 +8,7 @@ from typing import Any, Literal
 from artgen.articulation.types import ArticulatedObject, Joint, Part, Precondition
 from artgen.assembly.choice import OWN, Group, Market
 from artgen.assembly.clash import Pair, clashing, template_open
-from artgen.assembly.fill import Fill, Misfit, filled, gripped, handle_on, middle_grip
+from artgen.assembly.fill import Fill, Misfit, filled, grains, gripped, handle_on, middle_grip
 from artgen.assembly.library import Entry
 from artgen.assembly.looks import (
     Looks,
@@ -149,6 +149,7 @@ class _Attempt:
         self.handles, self.looks, self.plan = handles, looks, plan
         self.table = SurfaceTable()
         self.main = main_surfaces(source)
+        self.grains = grains(source.members, source.surfaces)
         self.group_of = {s.name: k for k, g in enumerate(groups) for s in g.slots}
         self.told: list[Mapping[str, Any]] = []
         self.seams: dict[str, tuple[int, int, int]] = {}
@@ -224,7 +225,8 @@ class _Attempt:
             donor_source = self.market.library.source(entry.source)
             donor = donor_source.members[entry.number]
         try:
-            fill = filled(member, donor, donor_source.surfaces)
+            grain = self.grains[member.name]
+            fill = filled(member, donor, donor_source.surfaces, grain=grain)
         except Misfit as misfit:
             self.plan.next_donor(
                 group, self.groups, f"{member.name} from {donor_source.id}: {misfit}"

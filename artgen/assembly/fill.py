@@ -5,11 +5,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from artgen.articulation.types import Grip, Joint
 from artgen.assembly.fit import box_map, fitted, flat_triangles, frame_borders
 from artgen.assembly.handles import mounted, place_of, places_on
-from artgen.assembly.looks import stuff_of
+from artgen.assembly.looks import is_panel
 from artgen.assembly.piece import Piece
 from artgen.assembly.source import Member
 from artgen.assembly.texels import STRETCH, stretch
@@ -45,8 +46,18 @@ class Misfit(Exception):
     """A donor or a handle does not suit a slot after all, and why."""
 
 
-def filled(slot: Member, donor: Member, surfaces: Sequence[SurfaceSpec]) -> Fill:
-    """A donor's body on the box of a slot's; `surfaces` are the donor's.
+def filled(
+    slot: Member,
+    donor: Member,
+    surfaces: Sequence[SurfaceSpec],
+    *,
+    grain: int | None,
+) -> Fill:
+    """A donor's body on the box of a slot's.
+
+    Args:
+        surfaces: the donor's.
+        grain: axis along which the grain of a front is to run, see `with_grain`.
 
     Raises:
         Misfit: triangles collapse, or texture would be stretched.
@@ -60,31 +71,71 @@ def filled(slot: Member, donor: Member, surfaces: Sequence[SurfaceSpec]) -> Fill
     if stretch(body.mesh, weights) > STRETCH * stretch(donor.body.mesh, weights):
         raise Misfit("its texture would be stretched")
     if slot.kind == "front":
-        body = with_grain(body, donor.body, surfaces)
+        body = with_grain(body, donor.body, grain, panels(surfaces))
     return Fill(body=body, scale=how.scale, mirrored=mirrored)
 
 
-def with_grain(body: Piece, donor: Piece, surfaces: Sequence[SurfaceSpec]) -> Piece:
-    """The grain of a single wooden board along its longer side if it ran so on the donor: turned
-    by 90 degrees on the two faces where the sides have changed places."""
-    before, after = (np.diff(p.bounds, axis=0)[0] for p in (donor, body))
-    if (before[0] >= before[2]) == (after[0] >= after[2]):
+def grains(members: Sequence[Member], surfaces: Sequence[SurfaceSpec]) -> dict[str, int | None]:
+    """Name of each member to the axis along which the grain of its front runs, 0 (x) or 2 (z): that
+    of its own board; where it has none, as frames have, that of the most fronts, of equals x."""
+    boards = panels(surfaces)
+    own = {
+        member.name: found[1]
+        for member in members
+        if member.kind == "front" and (found := main_board(member.body, boards)) is not None
+    }
+    runs = list(own.values())
+    common = max((0, 2), key=runs.count) if runs else None
+    return {member.name: own.get(member.name, common) for member in members}
+
+
+def panels(surfaces: Sequence[SurfaceSpec]) -> list[int]:
+    """Places of the surfaces that fronts' panels are made of."""
+    return [k for k, surface in enumerate(surfaces) if is_panel(surface)]
+
+
+def with_grain(body: Piece, donor: Piece, grain: int | None, boards: Sequence[int]) -> Piece:
+    """A fitted body whose main board, if it has one, has its grain along an axis, 0 (x) or 2 (z):
+    turned by 90 degrees on front and back where it ran the other way. None for an axis keeps it
+    along the longer side if it ran so on the donor.
+
+    Args:
+        body: fitted; its faces are those of `donor`.
+        boards: the donor's surfaces that have a grain, or get one with the object's new looks.
+    """
+    found = main_board(donor, boards)
+    if found is None:
         return body
-    mesh = donor.mesh
-    wood = [k for k, s in enumerate(surfaces) if stuff_of(s) == "wood"]
+    own, axis = found
+    if grain is None:
+        before, after = (np.diff(p.bounds, axis=0)[0] for p in (donor, body))
+        changed = (before[0] >= before[2]) != (after[0] >= after[2])
+        along = (axis == 0) == (before[0] >= before[2])
+        grain = 2 - axis if changed and along else axis
+    if axis == grain:
+        return body
+    flat = own & (np.abs(unit_normals(donor.mesh.triangles)[:, 1]) > 0.99)
+    turned = dataclasses.replace(body.mesh, uv=quarter_turned(body.mesh, flat))
+    return dataclasses.replace(body, mesh=turned)
+
+
+def main_board(front: Piece, boards: Sequence[int]) -> tuple[NDArray[np.bool_], int] | None:
+    """(F,) which triangles are of the one body that makes up most of a front's face, and the axis
+    along which its grain runs, 0 (x) or 2 (z); None where no body does.
+
+    Args:
+        boards: slots of surfaces that have a grain.
+    """
+    mesh, size = front.mesh, np.diff(front.bounds, axis=0)[0]
     normals, weight = unit_normals(mesh.triangles), areas(mesh.triangles)
-    face = (normals[:, 1] < -0.99) & np.isin(np.asarray(mesh.slot), wood)
+    face = (normals[:, 1] < -0.99) & np.isin(np.asarray(mesh.slot), boards)
     covered = np.bincount(np.asarray(mesh.body)[face], weights=weight[face])
-    if not len(covered) or covered.max() < BOARD * before[0] * before[2]:
-        return body
+    if not len(covered) or covered.max() < BOARD * size[0] * size[2]:
+        return None
     own = np.asarray(mesh.body) == int(np.argmax(covered))
     u = gradients(mesh.triangles[own & face], np.asarray(mesh.uv)[own & face])[:, 0]
     along = np.abs((u * weight[own & face, None]).sum(axis=0))
-    if (along[0] >= along[2]) != (before[0] >= before[2]):
-        return body
-    flat = own & (np.abs(normals[:, 1]) > 0.99)
-    turned = dataclasses.replace(body.mesh, uv=quarter_turned(body.mesh, flat))
-    return dataclasses.replace(body, mesh=turned)
+    return own, 0 if along[0] >= along[2] else 2
 
 
 def handle_on(slot: Member, front: Piece, donor: Member, handle: Member) -> Piece:

@@ -81,10 +81,13 @@ def palette_surface(entry: str, name: str) -> SurfaceSpec:
 
 def front_surface(surface: SurfaceSpec, looks: Looks) -> SurfaceSpec:
     """What a surface on a front's panel becomes: panes, mirrors, prints and hardware are kept."""
-    panel = stuff_of(surface) in ("wood", "paint") or (
-        stuff_of(surface) == "other" and surface.recipe in PANEL_RECIPES
-    )
-    return looks.front if panel else surface
+    return looks.front if is_panel(surface) else surface
+
+
+def is_panel(surface: SurfaceSpec) -> bool:
+    """Whether a front's panel of this surface is given a new look."""
+    stuff = stuff_of(surface)
+    return stuff in ("wood", "paint") or (stuff == "other" and surface.recipe in PANEL_RECIPES)
 
 
 def body_surface(surface: SurfaceSpec, main: Sequence[str], looks: Looks) -> SurfaceSpec:
