@@ -23,7 +23,8 @@ casting holds that of the cameras, too; two renderers of the same jobs share the
 
 @dataclass(frozen=True, kw_only=True)
 class ShiftRow:
-    """One metric under one condition.
+    """One metric under one condition, beside one other; a condition that is compared with several
+    has a row for each.
 
     Attributes:
         mean, lower, upper: over objects.
@@ -46,23 +47,23 @@ class ShiftRow:
     pairs: int
 
 
-def shift_rows(scores: Mapping[str, Score], against: Mapping[str, str | None]) -> list[ShiftRow]:
+def shift_rows(scores: Mapping[str, Score], against: Mapping[str, Sequence[str]]) -> list[ShiftRow]:
     """Every metric of the studies that a condition has."""
     return [
-        _row(name, metric, score, scores, against[name])
+        _row(name, metric, scores, other)
         for name, score in scores.items()
+        for other in against[name] or ("",)
         for metric in NAMES
         if metric in score.metrics
     ]
 
 
-def _row(
-    name: str, metric: str, score: Score, scores: Mapping[str, Score], against: str | None
-) -> ShiftRow:
+def _row(name: str, metric: str, scores: Mapping[str, Score], against: str) -> ShiftRow:
+    score = scores[name]
     stream = Stream(0, "training study", "shift", name, metric)
     own = estimate([[value] for value in score.metrics[metric].values()], stream)
-    other = None if against is None else scores[against]
-    found = None if other is None else difference(metric, {0: score}, {0: other}, stream)
+    both = {0: score}, {0: scores[against]} if against else {}
+    found = difference(metric, *both, stream.child(against))
     return ShiftRow(
         condition=name,
         metric=metric,
@@ -70,7 +71,7 @@ def _row(
         lower=own.lower,
         upper=own.upper,
         objects=own.objects,
-        against=against or "",
+        against=against,
         change=found.mean if found else None,
         change_lower=found.lower if found else None,
         change_upper=found.upper if found else None,
@@ -92,14 +93,17 @@ def page(rows: Sequence[ShiftRow], *, network: str, picture: str | None) -> str:
         )
         for name in conditions
     ]
+    compared: dict[str, list[ShiftRow]] = {}
+    for row in rows:
+        if row.pairs:
+            compared.setdefault(f"{row.condition} - {row.against}", []).append(row)
     changes = [
         (
-            f"{name} - {own[0].against}",
+            name,
             str(max(row.pairs for row in own)),
-            *(_change(table.get((name, metric))) for metric in metrics),
+            *(_change({row.metric: row for row in own}.get(metric)) for metric in metrics),
         )
-        for name in conditions
-        if (own := [row for row in rows if row.condition == name and row.pairs])
+        for name, own in compared.items()
     ]
     parts = [HEAD.format(network=network), "## Means", markdown_table(header, means)]
     if changes:

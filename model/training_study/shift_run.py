@@ -40,14 +40,14 @@ class Condition:
     Attributes:
         truth: library or folder of shards.
         split: of it; None takes all.
-        against: the condition with the same objects that it is compared with, object by object.
+        against: conditions with the same objects that it is compared with, object by object.
         pose_noise_deg, pose_noise: of the stated poses.
     """
 
     name: str
     truth: Path
     split: Split | None = None
-    against: str | None = None
+    against: tuple[str, ...] = ()
     pose_noise_deg: float = 0.0
     pose_noise: float = 0.0
 
@@ -83,16 +83,19 @@ def conditions_of(command: Shift, *, slots: int) -> list[Condition]:
     found = [usual]
     for degrees in command.noise_deg:
         noisy = replace(usual, name=f"poses off by {degrees:g} deg", pose_noise_deg=degrees)
-        found.append(replace(noisy, against=USUAL))
+        found.append(replace(noisy, against=(USUAL,)))
     for shift in command.noise:
         noisy = replace(usual, name=f"poses off by {shift:g} radii", pose_noise=shift)
-        found.append(replace(noisy, against=USUAL))
+        found.append(replace(noisy, against=(USUAL,)))
+    renderers: list[str] = []
     for name, folder in shard_folders(command).items():
         same = f"{USUAL} of {name}"
         truth = objects / f"of_{name}_{fingerprint(folder, 'test')[:12]}.npz"
         _write_same(command.library, folder, truth, slots=slots)
         found.append(Condition(name=same, truth=truth))
-        found.append(Condition(name=name, truth=folder, split="test", against=same))
+        against = (same, *renderers)
+        found.append(Condition(name=name, truth=folder, split="test", against=against))
+        renderers.append(name)
     for category in command.unseen:
         truth = objects / f"unseen_{category}.npz"
         request = Request(counts={category: command.held_out}, seed=0, tolerance=TOLERANCE)
@@ -128,12 +131,11 @@ def write_results(
     rows: list[ShiftRow] = shift_rows(scores, pairs)
     write_table(command.out / f"{NAME}.csv", rows)
     drawn = {}
-    for name, against in pairs.items():
-        if against is not None:
-            both = {0: scores[name]}, {0: scores[against]}
-            stream = Stream(0, "training study", NAME, name)
-            found = [difference(metric, *both, stream.child(metric)) for metric in DRAWN]
-            drawn[f"{name} - {against}"] = [own for own in found if own is not None]
+    for name, other in [(own.name, other) for own in conditions for other in own.against]:
+        both = {0: scores[name]}, {0: scores[other]}
+        stream = Stream(0, "training study", NAME, name, other)
+        found = [difference(metric, *both, stream.child(metric)) for metric in DRAWN]
+        drawn[f"{name} - {other}"] = [own for own in found if own is not None]
     picture = None
     if any(drawn.values()):
         picture = f"{NAME}.png"

@@ -44,25 +44,26 @@ def test_every_condition_has_a_row_and_pairs_are_the_same_objects(
     place: Path, tmp_path: Path
 ) -> None:
     words = ("--noise-deg", "5", "--noise", "0.05", "--held-out", "2")
-    shards = f"noise={place / 'shards'}"
-    assert shift(place, tmp_path, *words, "--shards", shards, "--unseen", "bucket") == 0
-    rows = {
-        row.condition: row
-        for row in read_table(tmp_path / "shift.csv", ShiftRow)
-        if row.metric == DGIOU
-    }
-    assert {name: (row.objects, row.pairs, row.against) for name, row in rows.items()} == {
-        "ray-cast": (2, 0, ""),
-        "poses off by 5 deg": (2, 2, "ray-cast"),
-        "poses off by 0.05 radii": (2, 2, "ray-cast"),
-        "ray-cast of noise": (1, 0, ""),
-        "noise": (1, 1, "ray-cast of noise"),
-        "unseen bucket": (2, 0, ""),
-    }
+    shards = ("--shards", *(f"{name}={place / 'shards'}" for name in ("noise", "copy")))
+    assert shift(place, tmp_path, *words, *shards, "--unseen", "bucket") == 0
+    rows = [row for row in read_table(tmp_path / "shift.csv", ShiftRow) if row.metric == DGIOU]
+    assert [(row.condition, row.objects, row.pairs, row.against) for row in rows] == [
+        ("ray-cast", 2, 0, ""),
+        ("poses off by 5 deg", 2, 2, "ray-cast"),
+        ("poses off by 0.05 radii", 2, 2, "ray-cast"),
+        ("ray-cast of noise", 1, 0, ""),
+        ("noise", 1, 1, "ray-cast of noise"),
+        ("ray-cast of copy", 1, 0, ""),
+        ("copy", 1, 1, "ray-cast of copy"),
+        ("copy", 1, 1, "noise"),
+        ("unseen bucket", 2, 0, ""),
+    ]
+    assert [row.change for row in rows if row.against == "noise"] == [0.0]
     same = read_library(next((tmp_path / "objects").glob("of_noise_*.npz")))
     assert same.ids == ("laptop_000001",)
     page = (tmp_path / "shift.md").read_text()
     assert "| poses off by 5 deg - ray-cast | 2 |" in page
+    assert "| copy - noise | 1 |" in page
     assert (tmp_path / "shift.png").exists()
 
 
