@@ -69,7 +69,7 @@ def joined(
             world=dist.get_world_size(),
             device=place,
             plan=plan,
-            patient=dist.new_group(backend="gloo", timeout=PATIENCE),
+            patient=dist.new_group(timeout=PATIENCE),
         )
     finally:
         dist.destroy_process_group()
