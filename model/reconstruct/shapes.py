@@ -164,8 +164,14 @@ def mended(solid: Solid, tolerance: float) -> Solid:
     if solid.is_empty:
         raise GeometryError("a reconstructed part vanished under its neighbors")
     whole, _ = without_small_pieces(solid, CRUMB**2, hollow=LEAST_HOLLOW)
-    simple = whole.manifold.simplify(tolerance)
-    return whole if simple.is_empty() else Solid(simple)
+    simple = merged(whole, tolerance)
+    return whole if simple.is_empty else simple
+
+
+def merged(solid: Solid, tolerance: float) -> Solid:
+    """The solid with triangles merged within `tolerance` m, those that came of different solids as
+    well: manifold3d leaves the edges between what booleans joined alone."""
+    return Solid(solid.manifold.as_original().simplify(tolerance))
 
 
 def sound(solid: Solid) -> Solid:
@@ -173,10 +179,10 @@ def sound(solid: Solid) -> Solid:
     within more and more, as little as it takes."""
     best = solid
     for tolerance in (0.0, *ROUNDS):
-        simple = solid.manifold.simplify(tolerance) if tolerance else solid.manifold
-        if simple.is_empty():
+        simple = merged(solid, tolerance) if tolerance else solid
+        if simple.is_empty:
             break
-        best = _on_grid(Solid(simple))
+        best = _on_grid(simple)
         if _smallest(best) > SMALLEST:
             return best
     return best

@@ -70,6 +70,17 @@ def test_a_flat_triangle_is_merged_away() -> None:
     assert np.linalg.norm(np.cross(b - a, c - a), axis=1).min() > 2e-14
 
 
+def test_cuts_side_by_side_leave_what_one_cut_leaves() -> None:
+    """Twenty slots that touch are one groove; their floors are one rectangle again."""
+    slots = BLOCK
+    for k in range(20):
+        slots = slots - slab((0.1, 0.02 * k, 0.3), (0.3, 0.02 * (k + 1), 0.5))
+    cut = BLOCK - slab((0.1, 0.0, 0.3), (0.3, 0.4, 0.5))
+    assert slots.manifold.num_tri() > 100
+    assert mended(slots, 1e-4).manifold.num_tri() == cut.manifold.num_tri()
+    assert abs(mended(slots, 1e-4).volume - cut.volume) <= 1e-12
+
+
 def test_nothing_left_is_an_error() -> None:
     with pytest.raises(GeometryError, match="vanished under its neighbors"):
         mended(BLOCK - BLOCK, 1e-4)
