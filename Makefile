@@ -60,9 +60,7 @@ unit: install-test ## the tests alone
 goldens: install-test ## rewrite the golden summaries of the categories
 	$(BIN)/python -m tests.golden.write
 
-gallery: install ## rewrite the pictures in docs/
-	$(BIN)/artgen generate --seed 2026 --size 192 --views 1 --states 2 --out out/gallery
-	mkdir -p docs/images && cp out/gallery/contact_sheet.png docs/images/contact_sheet.png
+gallery: install ## rewrite the pictures of all categories in docs/
 	$(BIN)/artgen sheet $(notdir $(basename $(filter-out category_rules/_%,$(wildcard category_rules/*.toml)))) \
 	  --count 24 --seed 20261121 --size 160 --paths 8 --out docs/images/categories --work out/sheets
 
