@@ -74,7 +74,7 @@ def generate(argv: Sequence[str]) -> int:
     names = command.categories or tuple(rule_names())
     tasks = plan(
         names,
-        len(names) if command.count is None else command.count,
+        len(set(names)) if command.count is None else command.count,
         command.seed,
         occlusion=command.bake_ao,
         overrides=[parse_override(word) for word in command.set],

@@ -89,6 +89,7 @@ def plan(
     """
     if count < 1:
         raise UsageError(f"--count {count} makes nothing; ask for at least 1")
+    categories = tuple(dict.fromkeys(categories))  # Named twice, it is one category.
     for category in categories:
         overridden(load_rule(category), overrides)
     for override in overrides:

@@ -89,7 +89,7 @@ def sheet(argv: Sequence[str]) -> int:
     check_libraries()
     tasks = plan(
         command.categories,
-        command.count * len(command.categories),
+        command.count * len(set(command.categories)),
         command.seed,
         overrides=[parse_override(word) for word in command.set],
     )

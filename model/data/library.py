@@ -231,8 +231,8 @@ def read_library(path: Path) -> Library:
         ) from error
     except (OSError, ValueError, KeyError, EOFError, BadZipFile, zlib.error) as error:
         raise ModelError(
-            f"{path}: is no library of training objects ({error}); it is truncated or damaged: "
-            "remove it and make it again with `artgen train-data`"
+            f"{path}: is no library of training objects ({error}); name a file that `artgen "
+            "train-data` wrote, or have it made again if it is truncated"
         ) from error
     if names.get("schema") != SCHEMA or arrays.keys() != _COLUMNS.keys():
         raise ModelError(

@@ -92,8 +92,8 @@ def run_session(
         with locked(folder) if team.leads else nullcontext():
             settings = {"config": plain(config), "material": plain(material)}
             _claim(folder / "config.json", settings, team, "other settings")
+            art, begun_with = _network(config, start)  # First: wrong weights cost no waiting.
             source = _opened(material, folder, config, team, show)
-            art, begun_with = _network(config, start)
             perceptual = _perceptual(config, team)
             inputs = {
                 **material_hashes(material, folder),

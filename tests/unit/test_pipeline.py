@@ -34,6 +34,12 @@ def test_nothing_to_make_and_unknown_categories_are_refused() -> None:
         plan(["laptop", "spaceship"], 2, 1)
 
 
+def test_a_category_that_is_named_twice_is_one() -> None:
+    """Found: two processes made the same asset at the same place at once."""
+    names = [task.asset_id for task in plan(["safe", "bucket", "safe"], 4, 1)]
+    assert names == ["safe_000000", "bucket_000000", "safe_000001", "bucket_000001"]
+
+
 def manifest_of(task: AssetTask, root: Path, **change: object) -> Path:
     digest = load_rule(task.category).digest
     stated = {

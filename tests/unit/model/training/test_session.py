@@ -7,7 +7,7 @@ import pytest
 import torch
 
 import model.training.session
-from artgen.core.errors import UsageError
+from artgen.core.errors import ModelError, UsageError
 from artgen.core.jsonio import file_hash
 from artgen.progress import silent
 from model.batch import Batch
@@ -91,6 +91,20 @@ def test_other_first_weights_do_not_resume(tmp_path: Path, material: Material) -
     session(material, tmp_path / "run", short, start=start)
     with pytest.raises(UsageError, match="other data or weights: start .*, now None"):
         session(material, tmp_path / "run", short)
+
+
+def test_first_weights_that_cannot_be_read_cost_no_waiting(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Found: `--start nowhere` was told after all objects had been made, minutes later."""
+
+    def make(*_: object, **__: object) -> None:
+        raise AssertionError("objects are made")
+
+    monkeypatch.setattr("model.training.session.make_missing", make)
+    made = Material(categories=("laptop",), objects=2)
+    with pytest.raises(ModelError, match="nowhere"):
+        session(made, tmp_path / "run", start=tmp_path / "nowhere")
 
 
 def test_the_card_says_what_a_run_began_with(tmp_path: Path, material: Material) -> None:
