@@ -183,7 +183,7 @@ class GltfArrays:
         vertices: (V, 3) m, object frame at rest.
         faces: (F, 3).
         normals: (F, 3, 3) unit, a corner.
-        uv: (F, 3, 2) in repeats of the image: metres divided by the surface's tile; v up.
+        uv: (F, 3, 2) in repeats of the image: meters divided by the surface's tile; v up.
         atlas: (F, 3, 2) in the unit square; v up.
         slot: (F,) index into `GltfJob.surfaces`.
     """

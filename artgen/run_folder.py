@@ -78,7 +78,7 @@ class RunFolder:
 
 @contextmanager
 def opened(root: Path, *, seed: int, need_bytes: int = 0) -> Iterator[RunFolder]:
-    """The run folder, created or recognised, locked against a second run while in use.
+    """The run folder, created or recognized, locked against a second run while in use.
 
     Raises:
         UsageError: another run holds it, it holds foreign files, another seed or schema, it cannot

@@ -18,9 +18,9 @@ class Softbox:
     Attributes:
         azimuth: from the front, towards +x, rad.
         elevation: above the horizon, rad.
-        distance: from the object's centre to the light's, radii.
+        distance: from the object's center to the light's, radii.
         side: radii.
-        white: linear radiance of a white wall at the centre that faces the light.
+        white: linear radiance of a white wall at the center that faces the light.
         warmth: red over green minus 1; blue over green is 1 minus it.
     """
 

@@ -89,7 +89,7 @@ def make_subsurface(body: Subsurface) -> None:
 def make_absorbing(body: Absorption) -> None:
     """A clear refracting body whose inside takes light away: exp(-density * way) is left.
 
-    Blender absorbs (1 - color) * density a metre, so the densest channel sets the number and the
+    Blender absorbs (1 - color) * density a meter, so the densest channel sets the number and the
     others follow by color.
     """
     material = _material(body.surface)

@@ -2,7 +2,7 @@
 
 Units of this package: lengths in radii of the object's bounding sphere, the sphere's center at
 zero, axes of the object frame at rest (z up, front -y). One radius in m is kept beside, so that
-results leave in metres.
+results leave in meters.
 
 Letters in names: B objects, T states, V views, P part slots, R rays, H W pixels, digits a length.
 """

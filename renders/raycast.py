@@ -1,4 +1,4 @@
-"""Where rays through pixel centres meet a part.
+"""Where rays through pixel centers meet a part.
 
 Rays are moved into the part's rest frame, so that one static search tree a part serves all states
 and cameras. Embree finds the triangle in float32; where on it the ray ends is then computed in

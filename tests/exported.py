@@ -142,7 +142,7 @@ def _placed(element: Any) -> Floats:
 
 
 Masses = dict[str, tuple[float, Floats, Floats]]
-"""Mass, centre of mass and inertia about it, in the object frame at rest."""
+"""Mass, center of mass and inertia about it, in the object frame at rest."""
 
 
 def mujoco_masses(obj: ArticulatedObject, folder: Path, file: str) -> Masses:

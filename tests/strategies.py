@@ -138,7 +138,7 @@ def _following(joint: Joint, mimic: Mimic) -> Joint:
 
 @st.composite
 def masses(draw: st.DrawFn) -> Mass:
-    """A rigid body's mass, centre and full tensor: a point cloud's second moments, turned."""
+    """A rigid body's mass, center and full tensor: a point cloud's second moments, turned."""
     mass = draw(st.floats(1e-3, 100.0))
     a, b, c = (draw(st.floats(1e-3, 1.0)) for _ in range(3))
     turn = axis_angle_matrix(draw(axes()), draw(st.floats(-math.pi, math.pi)))

@@ -22,7 +22,7 @@ def texel_figures(folder: Path) -> tuple[float, float]:
 
 
 def density_ratio(corners: Floats, atlas: Floats) -> float:
-    """Greatest over least texels a metre, roots of areas, over (F, 3, 3) m and (F, 3, 2) in [0, 1].
+    """Greatest over least texels a meter, roots of areas, over (F, 3, 3) m and (F, 3, 2) in [0, 1].
 
     A chart is flat along an axis, which shrinks the root of a face's area by 3^(1/4) at most."""
     sides = np.stack([corners[:, k] - corners[:, k - 1] for k in range(3)], axis=1)

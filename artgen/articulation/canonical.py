@@ -22,7 +22,7 @@ nothing."""
 def canonical_order(bounds: Sequence[Floats]) -> list[int]:
     """Indices in canonical order for (2, 3) rest bounds; index 0 is the base and stays first.
 
-    Centres are grouped from the lowest up: a group ends at the first gap wider than the tie.
+    Centers are grouped from the lowest up: a group ends at the first gap wider than the tie.
     Groups, unlike rounding to a grid, do not flip under noise unless a gap is within the noise of
     the tie."""
     boxes = np.asarray(bounds)
@@ -45,8 +45,8 @@ def _ordered(indices: list[int], centers: Floats, axes: tuple[int, ...], tie: fl
 
 
 def canonicalize(draft: Draft) -> Draft:
-    """The same object in canonical form: standing on z = 0, centred in x and y, parts and joints in
-    order, pivots at the axis point nearest to zero. Idempotent."""
+    """The same object in canonical form: standing on z = 0, centered in x and y, parts and joints
+    in order, pivots at the axis point nearest to zero. Idempotent."""
     bounds = [part_bounds(part) for part in draft.parts]
     low, high = np.min([b[0] for b in bounds], axis=0), np.max([b[1] for b in bounds], axis=0)
     middle = (low + high) / 2.0

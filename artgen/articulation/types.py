@@ -47,7 +47,7 @@ class Body:
         collision: convex solids that together stand for this piece; empty for trims without
             contact.
         grain: axis along which the material's grain runs; None means the longest side.
-        decal: flat image placement instead of metres on the surface.
+        decal: flat image placement instead of meters on the surface.
     """
 
     solid: Solid
@@ -225,8 +225,8 @@ class Mass:
 
     Attributes:
         mass: kg.
-        center: (3,) centre of mass, m.
-        inertia: (3, 3) about the centre of mass, kg m2.
+        center: (3,) center of mass, m.
+        inertia: (3, 3) about the center of mass, kg m2.
     """
 
     mass: float

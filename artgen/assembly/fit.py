@@ -156,7 +156,7 @@ def _mapped_grip(grip: Grip, how: BoxMap) -> Grip:
 
 
 def moved_piece(piece: Piece, matrix: Floats) -> Piece:
-    """A piece under a rigid motion and one scale (4, 4); UV grow with it, so that they stay metres
+    """A piece under a rigid motion and one scale (4, 4); UV grow with it, so that they stay meters
     on the surface."""
     turn = matrix[:3, :3]
     scale = float(np.cbrt(np.linalg.det(turn)))

@@ -14,7 +14,7 @@ from artgen.core.surface import SurfaceSpec
 from artgen.geometry.unwrap import metric_uv
 
 METRIC = (0.85, 1.15)
-"""Mean density of texture laid out in metres: box projections lose some on oblique faces."""
+"""Mean density of texture laid out in meters: box projections lose some on oblique faces."""
 Change = Callable[[SurfaceSpec], SurfaceSpec]
 
 
@@ -55,14 +55,14 @@ class SurfaceTable:
 
 
 def _metric(mesh: TriMesh, slot: int) -> bool:
-    """Whether the texture of a surface lies in metres."""
+    """Whether the texture of a surface lies in meters."""
     own = np.asarray(mesh.slot) == slot
     mean = np.average(density(mesh)[own], weights=areas(mesh.triangles)[own])
     return bool(METRIC[0] <= mean <= METRIC[1])
 
 
 def laid_anew(mesh: TriMesh, faces: NDArray[np.bool_]) -> Floats:
-    """(F, 3, 2) UV with some faces laid out in metres, body by body: a foreign texture is as dense
+    """(F, 3, 2) UV with some faces laid out in meters, body by body: a foreign texture is as dense
     as its maker liked, which does not suit another material."""
     uv, bodies = np.array(mesh.uv), np.asarray(mesh.body)
     for body in np.unique(bodies[faces]).tolist():

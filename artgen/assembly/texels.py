@@ -1,7 +1,7 @@
 """How dense texture lies on surfaces and how stretched it is.
 
-UV are metres on the surface, so density is 1 where lengths are kept whatever the material: texels a
-metre are those of a tile over its width.
+UV are meters on the surface, so density is 1 where lengths are kept whatever the material: texels a
+meter are those of a tile over its width.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ STRETCH = 1.2
 
 
 def density(mesh: TriMesh) -> Floats:
-    """(F,) texels a metre over those of the material: 1 where lengths are kept."""
+    """(F,) texels a meter over those of the material: 1 where lengths are kept."""
     values = singular_values(mesh.triangles, np.asarray(mesh.uv))
     return np.asarray(np.sqrt(values.prod(axis=1)))
 

@@ -20,7 +20,7 @@ class Camera:
 
     Attributes:
         focal: px, the same along x and y.
-        size: (width, height) px; the centre of the first pixel is at (0.5, 0.5).
+        size: (width, height) px; the center of the first pixel is at (0.5, 0.5).
         camera_from_world: (4, 4) rigid; x right, y down, z forward, m.
         principal: (x, y) px of the principal point; the middle of the image unless stated.
     """
@@ -66,8 +66,8 @@ class Camera:
         return np.concatenate([self.focal * local[..., :2] / depth + self.center, depth], axis=-1)
 
     def rays(self) -> tuple[Floats, Floats]:
-        """Origin (3,) and directions (H, W, 3) through the pixel centres, world; a direction is as
-        long as one metre of depth, so that points are origin + depth * direction."""
+        """Origin (3,) and directions (H, W, 3) through the pixel centers, world; a direction is as
+        long as one meter of depth, so that points are origin + depth * direction."""
         width, height = self.size
         x = (np.arange(width) + 0.5 - self.center[0]) / self.focal
         y = (np.arange(height) + 0.5 - self.center[1]) / self.focal

@@ -1,8 +1,8 @@
 """Axes, units and constants of the whole house; the only place for them.
 
-Metres, radians, kilograms. Right-handed object frame: z up, the object's front faces -y, the object
-stands on z = 0 and is centred in x and y. Seen from the front, left is -x. Cameras use OpenCV axes
-(x right, y down, z forward) and pixel centres at +0.5.
+Meters, radians, kilograms. Right-handed object frame: z up, the object's front faces -y, the object
+stands on z = 0 and is centered in x and y. Seen from the front, left is -x. Cameras use OpenCV axes
+(x right, y down, z forward) and pixel centers at +0.5.
 """
 
 import numpy as np

@@ -25,7 +25,7 @@ class TriMesh:
     Attributes:
         vertices: (V, 3) float64, m.
         faces: (F, 3) int32, indices into `vertices`.
-        uv: (F, 3, 2) float64 in metres on the surface, or None; v points up.
+        uv: (F, 3, 2) float64 in meters on the surface, or None; v points up.
         atlas: (F, 3, 2) float64 inside the unit square without overlap, or None.
         slot: (F,) int16, index into the owner's `surfaces`; zeros when not given.
         body: (F,) int16, which closed body of the part the triangle belongs to; zeros when not

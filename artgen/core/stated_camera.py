@@ -11,7 +11,7 @@ class StatedCamera:
 
     Attributes:
         focal: px, the same along x and y.
-        principal: (x, y) px of the principal point; the centre of the first pixel is at (0.5, 0.5).
+        principal: (x, y) px of the principal point; the center of the first pixel is at (0.5, 0.5).
         size: (width, height) px.
         camera_from_world: (4, 4) rigid, row by row; x right, y down, z forward, m.
     """

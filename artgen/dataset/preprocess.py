@@ -1,7 +1,7 @@
 """ART's square crop: one function for training and inference, cameras kept exact.
 
 A crop is an affine map of the image plane, so a point that projected to a place in the window
-before projects to the same place in the resized image after, to rounding. Pixel centres are at
+before projects to the same place in the resized image after, to rounding. Pixel centers are at
 +0.5.
 """
 

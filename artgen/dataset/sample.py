@@ -23,7 +23,7 @@ Singles = NDArray[np.float32]
 Halves = NDArray[np.float16]
 
 BACKGROUND = 255
-"""Part id of a pixel whose centre no part covers."""
+"""Part id of a pixel whose center no part covers."""
 LEFT_OUT = 254
 """Part id of a pixel that shows a part of `SampleMeta.parts_left_out`."""
 MAX_PARTS = 127
@@ -122,7 +122,7 @@ class Cameras:
     """V pinhole cameras, posed anew in each of T states.
 
     Attributes:
-        intrinsics: (V, 3, 3) px; the centre of the first pixel is at (0.5, 0.5).
+        intrinsics: (V, 3, 3) px; the center of the first pixel is at (0.5, 0.5).
         camera_from_world: (T, V, 4, 4) rigid; OpenCV axes, x right, y down, z forward, m.
         size: (width, height) px.
     """
@@ -170,8 +170,8 @@ class Cameras:
 class Sample:
     """One training item; T states, V views, P parts, H x W pixels, J joints.
 
-    Images are labeled at pixel centres: `part_id`, depths and normals are what the ray through the
-    centre hits, without antialiasing; only colors are filtered. `part_*` show each part alone, with
+    Images are labeled at pixel centers: `part_id`, depths and normals are what the ray through the
+    center hits, without antialiasing; only colors are filtered. `part_*` show each part alone, with
     nothing in front of it (amodal).
 
     Attributes:
@@ -191,11 +191,11 @@ class Sample:
         q: (T, J) joint values, rad or m, in the order of `meta.joints`, mimics included.
         center: (3,) middle of the bounding sphere, m, object frame.
         radius: of the bounding sphere, m.
-        albedo: (T, V, H, W, 3) uint8, sRGB base color of the surface seen at a pixel's centre; 0 is
+        albedo: (T, V, H, W, 3) uint8, sRGB base color of the surface seen at a pixel's center; 0 is
             background. This and all below are None where they were not asked for.
         roughness: (T, V, H, W) uint8 of the surface seen, 255 = 1; 0 is background.
         flow: (T, V, H, W, 2) float32 px (right, down): where the surface point seen at a pixel's
-            centre in state t lies in state t + 1, minus where it lies in t; 0 for background and in
+            center in state t lies in state t + 1, minus where it lies in t; 0 for background and in
             the last state.
         linear: (T, V, H, W, 4) float16, the composite before display: linear RGB premultiplied by
             alpha.
@@ -252,7 +252,7 @@ class Sample:
 
     @property
     def part_mask(self) -> NDArray[np.bool_]:
-        """(T, V, P, H, W) whether the ray through a pixel's centre meets the part alone."""
+        """(T, V, P, H, W) whether the ray through a pixel's center meets the part alone."""
         return self.part_depth > 0
 
     @property

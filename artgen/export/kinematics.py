@@ -21,7 +21,7 @@ from artgen.core.mesh import Floats
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FileMass:
-    """Mass properties as read: kg, centre (3,) m, inertia (3, 3) kg m2 about it; object frame."""
+    """Mass properties as read: kg, center (3,) m, inertia (3, 3) kg m2 about it; object frame."""
 
     mass: float
     center: Floats

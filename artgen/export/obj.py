@@ -65,7 +65,7 @@ def distinct(values: Floats) -> tuple[Floats, Ints]:
 
 
 def read_obj(text: str) -> TriMesh:
-    """What `obj_text` or `hull_text` wrote, bit for bit, but for UV in metres and slots.
+    """What `obj_text` or `hull_text` wrote, bit for bit, but for UV in meters and slots.
 
     Raises:
         ExportError: a line is not one that artgen writes.

@@ -1,4 +1,4 @@
-"""Office chairs: five casters, gas lift, swivelling seat, tilting back, arms and headrest."""
+"""Office chairs: five casters, gas lift, swiveling seat, tilting back, arms and headrest."""
 
 from collections.abc import Mapping
 

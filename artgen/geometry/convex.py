@@ -1,4 +1,4 @@
-"""Convex collision pieces: recognise boxes, prove convexity."""
+"""Convex collision pieces: recognize boxes, prove convexity."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from artgen.core.mesh import Floats, TriMesh
 from artgen.geometry.normals import face_vectors, unit
 
 FLATNESS = 1e-9
-"""m; float64 hulls of metre-sized parts carry about 1e-15, rounding to 1e-7 m is done after the
+"""m; float64 hulls of meter-sized parts carry about 1e-15, rounding to 1e-7 m is done after the
 test."""
 
 

@@ -70,7 +70,7 @@ def inertia(second: Floats) -> Floats:
 
 
 def combined(pieces: Iterable[tuple[float, Moments]]) -> tuple[float, Floats, Floats]:
-    """Mass (kg), centre (m) and inertia about the centre (kg m2) of pieces given as (density,
+    """Mass (kg), center (m) and inertia about the center (kg m2) of pieces given as (density,
     moments)."""
     listed = list(pieces)
     masses = np.array([density * m.volume for density, m in listed])

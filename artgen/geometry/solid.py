@@ -116,7 +116,7 @@ def rotation_about(axis: Axis, angle: float, about: Sequence[float]) -> Floats:
 
 
 def box(size: Sequence[float], *, at: Sequence[float] = (0.0, 0.0, 0.0)) -> Solid:
-    """A cuboid centred in x and y above `at`, its bottom at `at`."""
+    """A cuboid centered in x and y above `at`, its bottom at `at`."""
     sx, sy, sz = (float(v) for v in size)
     x, y, z = (float(v) for v in at)
     return slab((x - sx / 2, y - sy / 2, z), (x + sx / 2, y + sy / 2, z + sz))

@@ -1,4 +1,4 @@
-"""Two UV sets: metres on the surface for tileable materials, and one atlas per object for
+"""Two UV sets: meters on the surface for tileable materials, and one atlas per object for
 baking."""
 
 from collections.abc import Sequence
@@ -22,13 +22,13 @@ SIDE_AXES = np.array([[1, 2], [2, 0], [0, 1]])
 
 SMALLEST = 1e-4
 """m; thinner charts are packed as if they were this wide, so that none is lost."""
-MILLIMETRES = 1e3
+MILLIMETERS = 1e3
 FOLD = 1e-3
 """Share of a chart's area that may lie double: rounding along its edges."""
 
 
 def metric_uv(vertices: Floats, faces: Ints, *, grain: int | None, place: int) -> Floats:
-    """(F, 3, 2) box projection in metres; u runs along the grain (the longest side unless given).
+    """(F, 3, 2) box projection in meters; u runs along the grain (the longest side unless given).
 
     Each triangle is seen along the axis its normal is nearest to, so lengths are right on axis-
     aligned faces and at most sqrt(3) short on oblique ones. (u, v, normal) is right-handed: nothing
@@ -67,7 +67,7 @@ def flat_uv(
     right: Sequence[float],
     up: Sequence[float],
 ) -> Floats:
-    """(F, 3, 2) metres along `right` and `up` from `origin`, for a decal."""
+    """(F, 3, 2) meters along `right` and `up` from `origin`, for a decal."""
     plane = np.stack([np.asarray(right, float), np.asarray(up, float)], axis=1)
     return np.round((vertices[faces] - np.asarray(origin, float)) @ plane, UV_DECIMALS)
 
@@ -155,16 +155,16 @@ def _folded(uv: Floats) -> bool:
     a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
     areas = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2.0
     total = float(np.abs(areas).sum())
-    upright = np.where((areas < 0.0)[:, None, None], uv[:, ::-1], uv) * MILLIMETRES
+    upright = np.where((areas < 0.0)[:, None, None], uv[:, ::-1], uv) * MILLIMETERS
     union = m3.CrossSection(list(upright[areas != 0.0]), m3.FillRule.Positive)
-    return bool(union.area() / MILLIMETRES**2 < (1.0 - FOLD) * total)
+    return bool(union.area() / MILLIMETERS**2 < (1.0 - FOLD) * total)
 
 
 def _packed(sizes: Floats, resolution: int) -> tuple[Floats, Floats, Floats]:
     """Corner, right edge and up edge (N, 2) in the unit square for rectangles of `sizes` (N, 2)
     m."""
     count = len(sizes)
-    width, height = MILLIMETRES * np.maximum(sizes, SMALLEST).T  # xatlas drops areas of 1e-8
+    width, height = MILLIMETERS * np.maximum(sizes, SMALLEST).T  # xatlas drops areas of 1e-8
     zero = np.zeros(count)
     quads = np.stack(
         [

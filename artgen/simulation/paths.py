@@ -123,7 +123,7 @@ def price_of_dropping(
 
 def path_difference(model: mujoco.MjModel, one: Floats, other: Floats) -> float:
     """Largest difference between two (steps, nq) paths, as a share of each joint's range; a joint
-    without limits counts one turn, or one metre."""
+    without limits counts one turn, or one meter."""
     turn = np.where(model.jnt_type == mujoco.mjtJoint.mjJNT_HINGE, 2.0 * np.pi, 1.0)
     ranges = np.where(model.jnt_limited, model.jnt_range[:, 1] - model.jnt_range[:, 0], turn)
     apart = np.abs(one - other) / ranges

@@ -21,7 +21,7 @@ LED = {"white": "#dff1ff", "red": "#ff4a2a", "blue": "#58b7ff", "amber": "#ffb34
 
 @dataclass(frozen=True, kw_only=True)
 class Spot:
-    """A control: centre and size on the panel, m from its lower left corner."""
+    """A control: center and size on the panel, m from its lower left corner."""
 
     center: Point
     size: Point

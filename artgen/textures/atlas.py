@@ -37,12 +37,12 @@ def bake_color(
         occlusion: (size, size) in [0, 1] on the atlas; darkens the color, not the glow.
     """
     atlas = np.concatenate([np.asarray(mesh.atlas) for mesh in meshes])
-    metres = np.concatenate([np.asarray(mesh.uv) for mesh in meshes])
+    meters = np.concatenate([np.asarray(mesh.uv) for mesh in meshes])
     slot = np.concatenate([np.asarray(mesh.slot) for mesh in meshes])
     texels = touched_texels(atlas, size)
-    place = (texels.weights[:, :, None] * metres[texels.triangle]).sum(axis=1)
+    place = (texels.weights[:, :, None] * meters[texels.triangle]).sum(axis=1)
     owner = slot[texels.triangle]
-    spacing = _texel_spacing(metres, atlas, slot, size)
+    spacing = _texel_spacing(meters, atlas, slot, size)
     shade = None if occlusion is None else occlusion.ravel()[texels.index, None]
     light = np.zeros((len(owner), 3))
     for k, (surface, look) in enumerate(zip(surfaces, images, strict=True)):
@@ -95,10 +95,10 @@ def sample_tile(
 
 
 def _texel_spacing(
-    metres: Floats, atlas: Floats, slot: NDArray[np.int16], size: int
+    meters: Floats, atlas: Floats, slot: NDArray[np.int16], size: int
 ) -> dict[int, float]:
     """Distance between texels on each surface, m: root of area in uv over area in texels."""
-    areas = np.stack([_doubled_area(metres), _doubled_area(atlas) * size * size])
+    areas = np.stack([_doubled_area(meters), _doubled_area(atlas) * size * size])
     found = {}
     for k in np.unique(slot):
         surface, texels = areas[:, slot == k].sum(axis=1)

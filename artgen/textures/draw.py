@@ -1,4 +1,4 @@
-"""A drawing sheet in metres for decals: shapes, text, LED digits and icons.
+"""A drawing sheet in meters for decals: shapes, text, LED digits and icons.
 
 Recipes for keyboards, panels, labels and screens draw with it. Everything is drawn four times finer
 in each direction and averaged, so edges are smooth; coordinates start at the lower left corner, x
@@ -138,7 +138,7 @@ class Sheet:
     def text(
         self, at: Point, words: str, *, height: float, fill: str, anchor: Anchor = "middle"
     ) -> None:
-        """Words at half height on `at`, beginning, centred or ending there; `height` of capitals.
+        """Words at half height on `at`, beginning, centered or ending there; `height` of capitals.
 
         Glyphs of the built-in font: Latin letters, digits, punctuation. Draw symbols as icons.
         """
@@ -196,8 +196,8 @@ class Sheet:
         across, up = radius * self._scale[0], radius * self._scale[1]
         return x - across, y - up, x + across - 1.0, y + up - 1.0
 
-    def _length(self, metres: float) -> float:
-        return metres * min(self._scale)
+    def _length(self, meters: float) -> float:
+        return meters * min(self._scale)
 
-    def _stroke(self, metres: float) -> int:
-        return max(1, math.floor(self._length(metres) + 0.5))
+    def _stroke(self, meters: float) -> int:
+        return max(1, math.floor(self._length(meters) + 0.5))

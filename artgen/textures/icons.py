@@ -8,7 +8,7 @@ from artgen.textures.draw import Point, Sheet
 
 
 def draw_icon(sheet: Sheet, at: Point, name: str, *, size: float, fill: str) -> None:
-    """One of ICONS within a square of `size` m centred on `at`."""
+    """One of ICONS within a square of `size` m centered on `at`."""
     if name not in ICONS:
         raise UsageError(f"there is no icon {name!r}; known: {', '.join(sorted(ICONS))}")
     ICONS[name](sheet, at, size, fill)

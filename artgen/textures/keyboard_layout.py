@@ -104,7 +104,7 @@ def _cap(
     row: float,
     rows: float,
 ) -> Key:
-    """Cells in units to metres; a cap is smaller than its cell by the gap."""
+    """Cells in units to meters; a cap is smaller than its cell by the gap."""
     height = style.size[1]
 
     def level(at: float) -> float:

@@ -41,7 +41,7 @@ class Species:
         band: strength of the dark part of a ring.
         early: share of a ring that is porous early wood.
         line: strength of the thin dark line that ends a ring.
-        pores: pores per square metre.
+        pores: pores per square meter.
         pore_length: m.
         pore: strength of a pore; negative is a filled, light pore.
         porous: 0 spreads pores evenly (cherry), 1 keeps them in the early wood (oak, ash).

@@ -22,7 +22,7 @@ from model.data.soup import LOOK, Soup
 
 SCHEMA = "artgen-soups/1"
 STEPS = 65535
-"""Positions are whole steps of the box around an object: 15 micrometres a metre."""
+"""Positions are whole steps of the box around an object: 15 micrometres a meter."""
 _COUNTS = ("parts", "vertices", "faces", "bodies", "looks", "facts")
 _COLUMNS = {
     "bounds": (np.float64, (2, 3)),

@@ -17,7 +17,7 @@ def bent_strip(
 ) -> Solid:
     """A bar of `width` along `across` through corners in the plane beside it, rounded by `bend`.
 
-    Points are (y, z) across x, (z, x) across y and (x, y) across z, m; the bar is centred on 0
+    Points are (y, z) across x, (z, x) across y and (x, y) across z, m; the bar is centered on 0
     along `across`.
     """
     flat = np.c_[np.asarray(corners, float), np.zeros(len(corners))]

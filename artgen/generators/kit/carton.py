@@ -214,7 +214,7 @@ def partition(c: Carton, cells: tuple[int, int], height: float) -> tuple[Body, .
 
 @dataclass(frozen=True, kw_only=True)
 class Flaps:
-    """How flaps move: the angle of a full fold, friction of the creases, N m a metre."""
+    """How flaps move: the angle of a full fold, friction of the creases, N m a meter."""
 
     reach: float
     friction: float

@@ -31,7 +31,7 @@ class ChairBack:
         height: m.
         low: z of the lower edge, m.
         front: y of the middle of the lower edge, m.
-        lean: how far it leans back a metre of height.
+        lean: how far it leans back a meter of height.
         bow: how far its sides come forward, m.
         lumbar: how far it swells forward at the small of the back, m.
         corner: radius of the corners, m.

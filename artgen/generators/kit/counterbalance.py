@@ -12,7 +12,7 @@ from artgen.geometry.measure import combined, moments
 
 
 def weighed(bodies: Iterable[Body]) -> tuple[float, Floats]:
-    """Mass (kg) and centre (3,) of bodies that share no volume, before their edges are rounded."""
+    """Mass (kg) and center (3,) of bodies that share no volume, before their edges are rounded."""
     pieces = [(b.density, moments(b.solid.trimesh().triangles)) for b in bodies]
     mass, center, _ = combined(pieces)
     return mass, center

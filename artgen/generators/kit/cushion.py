@@ -17,7 +17,7 @@ Step = tuple[float, float]
 def plan(
     width: float, depth: float, radii: float | Sequence[float], *, segments: int = 4
 ) -> Floats:
-    """(N, 2) outline centred on zero with points along its straight sides too, so that it bends.
+    """(N, 2) outline centered on zero with points along its straight sides too, so that it bends.
 
     `radii` go from the lower left corner counter-clockwise.
     """

@@ -151,5 +151,5 @@ def _strip(box: DrawerBox) -> Solid:
 
 
 def travel(box: DrawerBox, share: float) -> float:
-    """How far the drawer comes out, m, to the millimetre."""
+    """How far the drawer comes out, m, to the millimeter."""
     return math.floor(1000.0 * share * box.length) / 1000.0

@@ -101,7 +101,7 @@ def arc_mixer(p: FaucetParams) -> Works:
 
 
 def bridge(p: FaucetParams) -> Works:
-    """Two pillars with valves, a pipe between them, a swivelling spout on its middle."""
+    """Two pillars with valves, a pipe between them, a swiveling spout on its middle."""
     half, z = p.centers / 2.0, 0.055 + 0.4 * p.bonnet
     top = z + 0.012 + p.bonnet
     pipe = cylinder(0.0095, 2.0 * half, axis="x", segments=20).at(-half, 0.0, z)
@@ -205,7 +205,7 @@ def _top_lever(p: FaucetParams, z: float, r: float) -> Works:
 def _neck(
     p: FaucetParams, foot: float, top: float, *, drop: float, reach: float | None = None
 ) -> SpoutPath:
-    """The tube of a swivelling spout from z = `foot`: an arc, a square one, or a swan neck."""
+    """The tube of a swiveling spout from z = `foot`: an arc, a square one, or a swan neck."""
     over = p.reach if reach is None else reach
     radius = p.tube
     if p.curve == "square":

@@ -1,4 +1,4 @@
-"""What faucets are put together from: look, flange, valves, swivelling spouts, spray heads."""
+"""What faucets are put together from: look, flange, valves, swiveling spouts, spray heads."""
 
 import math
 from collections.abc import Mapping
@@ -168,7 +168,7 @@ def swivel_joint(p: FaucetParams) -> Joint:
 
 
 def swivel_ring(radius: float, low: float, high: float, bore: float = 0.0) -> Body:
-    """The foot of a swivelling spout, around a post if it has a bore."""
+    """The foot of a swiveling spout, around a post if it has a bore."""
     if bore <= 0.0:
         profile = [(0.0, low), (radius, low), (radius, 0.6 * low + 0.4 * high),
                    (0.75 * radius, high), (0.0, high)]  # fmt: skip
@@ -187,7 +187,7 @@ def swivel_ring(radius: float, low: float, high: float, bore: float = 0.0) -> Bo
 
 
 def pull_out_spout(p: FaucetParams, path: SpoutPath, ring: tuple[Body, ...]) -> Works:
-    """A swivelling spout whose end is a spray head on a hose."""
+    """A swiveling spout whose end is a spray head on a hose."""
     (a, b), (c, d) = path.corners[-2:]
     leg = math.hypot(c - a, d - b) - path.bends[-1] * math.tan(0.5 * _last_turn(path)) - p.head
     travel = min(p.pull, leg - 0.018)

@@ -4,7 +4,7 @@ In the plane (y, z) beside the chair: the frame's line leans back by `lean`; the
 at `cross`; the seat is hinged to their upper ends at `hinge`, and a pin near its rear, `pin`, runs
 along the frame's line. Were hinge-cross and hinge-pin equally long, the seat would turn against the
 frame exactly as the rear legs do; as they differ little, a fixed ratio keeps the pin within
-millimetres of its line, and the slot is made that much wider.
+millimeters of its line, and the slot is made that much wider.
 """
 
 import math

@@ -46,7 +46,7 @@ class Keycap:
 
 
 def keycap(size: Sequence[float], cap: Keycap) -> Solid:
-    """One cap centred in x and y on z = 0; flanks lean in, upper edges are chamfered; convex."""
+    """One cap centered in x and y on z = 0; flanks lean in, upper edges are chamfered; convex."""
     foot = np.array([(sx * size[0] / 2.0, sy * size[1] / 2.0) for sx in (-1, 1) for sy in (-1, 1)])
     shoulder = _outline(size, cap, inset=cap.taper)
     top = _outline(size, cap, inset=cap.taper + CHAMFER)

@@ -133,7 +133,7 @@ class Rect:
 
     @property
     def middle(self) -> tuple[float, float]:
-        """Its centre."""
+        """Its center."""
         return (self.x0 + self.x1) / 2.0, (self.y0 + self.y1) / 2.0
 
     def grown(self, by: float) -> "Rect":

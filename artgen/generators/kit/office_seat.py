@@ -12,7 +12,7 @@ from artgen.generators.kit.cushion import pad, piping, plan, upholstered
 from artgen.geometry.solid import Solid, box, cylinder, hull, slab, union
 
 BOX = (0.130, 0.190, 0.040)
-"""m; the mechanism's housing, centred a little behind the column."""
+"""m; the mechanism's housing, centered a little behind the column."""
 BACK = 0.100
 """m; y of the housing's rear face."""
 TILT = (0.066, 0.020)

@@ -12,7 +12,7 @@ from artgen.core.mesh import Floats
 from artgen.geometry.solid import Solid, slab, wire
 
 LAYER = 2.35
-"""Distance of the centre lines of wires that cross, in wire radii: a pentagon of the area of the
+"""Distance of the center lines of wires that cross, in wire radii: a pentagon of the area of the
 circle reaches 1.149 radii, so wires rest on each other without sharing volume."""
 SIDES = 5
 
@@ -60,7 +60,7 @@ def _fillet(a: Floats, corner: Floats, b: Floats, radius: float) -> Floats:
 
 @dataclass(frozen=True, kw_only=True)
 class WireBasket:
-    """A basket open at the top, centred on x = 0; all numbers are centre lines of wires, m.
+    """A basket open at the top, centered on x = 0; all numbers are center lines of wires, m.
 
     Attributes:
         half_width: of the side walls.
@@ -126,7 +126,7 @@ class WireBasket:
 def basket_wires(basket: WireBasket) -> list[Solid]:
     """Rim, belts and floor wires; they lie on each other and share no volume."""
     b, rim = basket, 1.33 * basket.radius
-    reach = 1.2 * (rim + b.radius)  # from the rim's centre line down to an upright's end
+    reach = 1.2 * (rim + b.radius)  # from the rim's center line down to an upright's end
     rings = [_ring(b, 0.0, lift=1.0, radius=rim)]
     for k in range(b.belts):
         rings.append(_ring(b, LAYER * b.radius, lift=(k + 1.0) / (b.belts + 1.0), radius=b.radius))

@@ -24,7 +24,7 @@ ANGLES = st.tuples(st.floats(-math.pi, math.pi), st.floats(-1.2, 1.2))
 def test_a_framed_cloud_lies_within_its_share_of_the_image_and_reaches_it(
     points: list, angles: tuple, fov: float, fill: float, size: tuple
 ) -> None:
-    """Projection of values around 1 m at 50 px a metre costs about 1e-13 px; 1e-6 is generous but
+    """Projection of values around 1 m at 50 px a meter costs about 1e-13 px; 1e-6 is generous but
     far below what a wrong formula does."""
     camera = framed(points, direction=orbit_direction(*angles), fov=fov, size=size, fill=fill)
     pixels = camera.project(points)

@@ -89,7 +89,7 @@ def test_units_and_axes_are_stated(textured: Usd.Stage) -> None:
 
 
 def test_texture_coordinates_count_tiles(textured: Usd.Stage) -> None:
-    """`st` is metres over the tile of the triangle's surface, within one rounding to float32."""
+    """`st` is meters over the tile of the triangle's surface, within one rounding to float32."""
     obj = drawer_unit()
     mesh = obj.parts[3].mesh  # The knob, of steel alone.
     prim = UsdGeom.PrimvarsAPI(textured.GetPrimAtPath("/unit_000002/door/visual"))

@@ -28,7 +28,7 @@ every_seed = pytest.mark.parametrize("seed", SEEDS)
 CLEARANCE = 0.001
 """m; what is designed to stay between parts."""
 ROUNDING = 1e-9
-"""m; float64 coordinates of a metre, turned by up to 2 rad, are off by some 1e-15."""
+"""m; float64 coordinates of a meter, turned by up to 2 rad, are off by some 1e-15."""
 
 
 @cache

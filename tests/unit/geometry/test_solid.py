@@ -28,7 +28,7 @@ from artgen.geometry.solid import (
 SIDES = st.tuples(*[st.floats(0.01, 2.0)] * 3)
 PLACES = st.tuples(*[st.floats(-2.0, 2.0)] * 3)
 EXACT = {"rtol": 1e-12}
-"""A volume is a sum of some hundred float64 products of metre-sized numbers: 100 * 2.2e-16."""
+"""A volume is a sum of some hundred float64 products of meter-sized numbers: 100 * 2.2e-16."""
 
 
 @given(SIDES, PLACES)

@@ -1,4 +1,4 @@
-"""Two UV sets: metres on the surface, and an atlas that covers nothing twice."""
+"""Two UV sets: meters on the surface, and an atlas that covers nothing twice."""
 
 import manifold3d as m3
 import numpy as np
@@ -13,7 +13,7 @@ GRID = 512
 
 
 def texels(triangle: Floats) -> set[tuple[int, int]]:
-    """Texel centres strictly inside a UV triangle: the slow, plain definition."""
+    """Texel centers strictly inside a UV triangle: the slow, plain definition."""
     a, b, c = triangle * GRID
     low, high = np.floor(triangle.min(0) * GRID).astype(int), np.ceil(triangle.max(0) * GRID)
     found = set()

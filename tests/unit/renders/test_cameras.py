@@ -50,7 +50,7 @@ def deviations(draw: st.DrawFn) -> CameraSettings:
 
 @given(deviations(), st.integers(0, 10**6), st.sampled_from([(64, 64), (96, 48)]))
 def test_everything_is_inside_whatever_is_asked(settings, seed, size) -> None:
-    """Slopes of up to 5 and eyes a few metres off, at 100 px: roundings of 1e-15 come to 1e-12 px;
+    """Slopes of up to 5 and eyes a few meters off, at 100 px: roundings of 1e-15 come to 1e-12 px;
     1e-6 px is generous and far below what a wrong formula does."""
     for camera in placed(settings, views=3, seed=seed, size=size):
         pixels = camera.project(POINTS)

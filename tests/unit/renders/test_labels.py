@@ -129,7 +129,7 @@ def test_albedo_of_a_plain_surface_is_its_color() -> None:
 
 
 def test_albedo_reads_the_image_where_the_surface_is_hit() -> None:
-    """Texture coordinates x and z in metres, an image that is a ramp in both: the code tells the
+    """Texture coordinates x and z in meters, an image that is a ramp in both: the code tells the
     point, to half a code, and the point is where the ray ends."""
     mesh = box((0.5, 0.3, 0.4)).trimesh()
     ramp = np.zeros((256, 256, 3), np.uint8)
@@ -249,7 +249,7 @@ def test_ids_and_depth_agree_with_cycles(
     bundle: Bundle, blender: BlenderWorker, tmp_path: Path
 ) -> None:
     """Cycles works in float32, whose rounding is 1e-7 of 1.5 m at right angles and grows with the
-    slope of the surface; a pixel whose centre lies on an outline may go either way."""
+    slope of the surface; a pixel whose center lies on an outline may go either way."""
     for theirs, ours in compared(bundle, blender, tmp_path):
         same = theirs["IndexOB.X"] == ours["part"]
         assert same.mean() >= 0.999

@@ -125,7 +125,7 @@ def test_no_ray_slips_through_the_seams_of_a_closed_body() -> None:
 
 @pytest.mark.parametrize("offset", [0.0, 0.013])
 def test_a_known_point_is_found_in_the_id_image(offset: float) -> None:
-    """The centroid of a small ball's pixels is the projection of its centre, within half a pixel;
+    """The centroid of a small ball's pixels is the projection of its center, within half a pixel;
     perspective moves it by under 0.01 px at this size."""
     point = np.array([0.21 + offset, -0.13, 0.37 - offset])
     ball = cylinder(0.03, 0.06, segments=24).at(*(point - (0, 0, 0.03))).trimesh()

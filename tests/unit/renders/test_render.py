@@ -65,7 +65,7 @@ def test_the_job_survives_json(plan: RenderPlan) -> None:
 def test_opaque_parts_cover_the_pixels_that_rays_hit(
     plan: RenderPlan, images: list[Floats]
 ) -> None:
-    """Alpha is coverage within the pixel filter, the label is the centre: they may differ on the
+    """Alpha is coverage within the pixel filter, the label is the center: they may differ on the
     outline alone, so wherever a label and its eight neighbors agree, alpha is 1 or 0."""
     labels = cast(plan)
     checked = 0
@@ -81,7 +81,7 @@ def test_opaque_parts_cover_the_pixels_that_rays_hit(
                 [np.roll(mask, (i, j), axis=(0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)]
             )
             inner = (slice(1, -1), slice(1, -1))
-            # The tip of a corner, or of a notch, may pass between pixel centres.
+            # The tip of a corner, or of a notch, may pass between pixel centers.
             assert np.count_nonzero(alpha[inner][around.all(axis=0)[inner]] < 0.999) <= 2
             assert np.count_nonzero(alpha[inner][~around.any(axis=0)[inner]]) <= 2
             checked += int(around.all(axis=0)[inner].sum())

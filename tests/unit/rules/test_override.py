@@ -33,7 +33,7 @@ def test_what_is_set_is_drawn_and_all_else_stays() -> None:
 
 
 def test_values_have_the_type_that_the_builder_expects() -> None:
-    """A whole number for a length in metres is a float in the params."""
+    """A whole number for a length in meters is a float in the params."""
     assert drawn("dishwasher.opening_deg=90").params.opening_deg == 90.0
     assert isinstance(drawn("dishwasher.opening_deg=90").params.opening_deg, float)
     assert drawn("dishwasher.slim=true").params.slim is True

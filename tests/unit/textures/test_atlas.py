@@ -13,7 +13,7 @@ from artgen.textures.raster import touched_texels
 SIZE = 16
 
 
-def quad(atlas, metres, slot=0):
+def quad(atlas, meters, slot=0):
     """Two triangles over a rectangle (left, bottom, right, top) of the atlas and of the surface."""
 
     def corners(rectangle):
@@ -24,7 +24,7 @@ def quad(atlas, metres, slot=0):
     return TriMesh(
         vertices=[(0, 0, 0), (1, 0, 0), (1, 0, 1), (0, 0, 1)],
         faces=[(0, 1, 2), (0, 2, 3)],
-        uv=corners(metres),
+        uv=corners(meters),
         atlas=corners(atlas),
         slot=[slot, slot],
     )

@@ -81,7 +81,7 @@ def test_bends_that_do_not_fit_are_refused() -> None:
 
 
 def test_mass_is_that_of_round_wire() -> None:
-    """Along straight wire the polygon has the circle's area; bends and mitres keep the centre
+    """Along straight wire the polygon has the circle's area; bends and mitres keep the center
     line's length within 1 %."""
     basket = WireBasket(
         half_width=0.2,

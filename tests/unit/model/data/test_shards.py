@@ -83,7 +83,7 @@ def test_rays_carry_the_colors_of_the_pixels_that_they_go_through(source, sample
             np.testing.assert_allclose(found, part[:, :3] * part[:, 3:], atol=1e-6)
             np.testing.assert_allclose(rays.alpha_BR[b, r], sample.rgba[t, v, y, x, 3] / 255.0)
             seen = float(rays.distance_BR[b, r]) * sample.radius * depth
-            # Depth codes are 3e-5 of a range of 2 m; then float32 of metres.
+            # Depth codes are 3e-5 of a range of 2 m; then float32 of meters.
             assert abs(seen - sample.depth[t, v, y, x]) < 4e-5
 
 
@@ -155,7 +155,7 @@ def test_a_corrupt_member_is_named(folder, tmp_path):
 
 
 def _pixel(sample: Sample, t: int, origin, direction) -> tuple[int, int, int, float]:
-    """View, row and column that a ray goes through, and its depth a metre of way."""
+    """View, row and column that a ray goes through, and its depth a meter of way."""
     for v in range(4):
         pose = sample.camera_from_centered[t, v]
         eye = pose[:3, :3] @ (origin.numpy() * sample.radius) + pose[:3, 3]

@@ -25,7 +25,7 @@ def test_triangles_stay_within_the_tolerance_of_the_exact_boxes(category):
     for p in range(len(made.parts)):
         used = made.vertices[np.unique(made.faces[made.part == p])]
         found = np.stack([used.min(axis=0), used.max(axis=0)])
-        # 1e-6: vertices are float32 of coordinates of a metre.
+        # 1e-6: vertices are float32 of coordinates of a meter.
         assert np.abs(found - made.bounds[p]).max() <= COARSE * made.radius + 1e-6
 
 

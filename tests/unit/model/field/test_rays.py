@@ -45,7 +45,7 @@ def span(origin: list[float], direction: list[float], half: list[float]) -> tupl
 
 @pytest.mark.parametrize("seed", range(4))
 def test_rays_are_those_of_the_house(seed: int) -> None:
-    """Same origins, same directions once those of the house, one metre of depth long, are unit;
+    """Same origins, same directions once those of the house, one meter of depth long, are unit;
     both are a handful of roundings of numbers below 4."""
     camera = house_camera(seed)
     where, along = camera.rays()
