@@ -35,17 +35,25 @@ def inside_bodies(mesh: TriMesh, points: Floats) -> NDArray[np.bool_]:
     for index, point in enumerate(points):
         if ((point < lower) | (point > upper)).any():
             continue
-        corners = mesh.triangles - point
-        a, b, c = corners.transpose(1, 0, 2)
-        la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-        # Van Oosterom and Strackee 1983.
-        over = np.einsum("ij,ij->i", a, np.cross(b, c))
-        under = la * lb * lc + (
-            np.einsum("ij,ij->i", a, b) * lc
-            + np.einsum("ij,ij->i", b, c) * la
-            + np.einsum("ij,ij->i", c, a) * lb
-        )
-        angles = 2.0 * np.arctan2(over, under)
-        turns = np.bincount(np.asarray(mesh.body), weights=angles) / (4.0 * np.pi)
+        turns = np.bincount(np.asarray(mesh.body), weights=turns_of(mesh.triangles, point))
         inside[index] = bool((turns > 0.5).any())
     return inside
+
+
+def turns_about(points: Floats, triangles: Floats) -> Floats:
+    """(N,) how often closed surfaces of (T, 3, 3) triangles go around points."""
+    return np.array([turns_of(triangles, point).sum() for point in points])
+
+
+def turns_of(triangles: Floats, point: Floats) -> Floats:
+    """(T,) share of a full turn about a point that each of (T, 3, 3) triangles fills: its solid
+    angle over 4 pi (van Oosterom and Strackee 1983)."""
+    a, b, c = (triangles - point).transpose(1, 0, 2)
+    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
+    over = np.einsum("ij,ij->i", a, np.cross(b, c))
+    under = la * lb * lc + (
+        np.einsum("ij,ij->i", a, b) * lc
+        + np.einsum("ij,ij->i", b, c) * la
+        + np.einsum("ij,ij->i", c, a) * lb
+    )
+    return np.asarray(np.arctan2(over, under) / (2.0 * np.pi))

@@ -5,6 +5,7 @@ too, which booleans take amiss.
 import numpy as np
 
 from artgen.core.mesh import Floats, TriMesh
+from artgen.geometry.distance import turns_about
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
 TOUCH = 1e-9
@@ -67,18 +68,3 @@ def _at(first: Floats, second: Floats, axis: int, height: float) -> Floats:
     found = first + share[:, None] * (second - first)
     found[:, axis] = height
     return np.asarray(found)
-
-
-def turns_about(points: Floats, triangles: Floats) -> Floats:
-    """(N,) how often closed surfaces of (M, 3, 3) triangles go around points: the sum of the solid
-    angles that triangles fill, by van Oosterom and Strackee's formula, over 4 pi."""
-    a, b, c = (triangles[None, :, k] - points[:, None] for k in range(3))
-    la, lb, lc = (np.linalg.norm(own, axis=2) for own in (a, b, c))
-    above = np.einsum("nmk,nmk->nm", a, np.cross(b, c))
-    below = (
-        la * lb * lc
-        + np.einsum("nmk,nmk->nm", a, b) * lc
-        + np.einsum("nmk,nmk->nm", b, c) * la
-        + np.einsum("nmk,nmk->nm", c, a) * lb
-    )
-    return np.asarray(np.arctan2(above, below).sum(axis=1) / (2.0 * np.pi))

@@ -4,8 +4,9 @@ import numpy as np
 
 from artgen.core.mesh import Floats, TriMesh
 from artgen.core.stream import Stream
+from artgen.geometry.distance import turns_about
 from artgen.geometry.solid import Solid, cylinder, hull, slab
-from model.reconstruct.clipping import clipped, points_within, turns_about
+from model.reconstruct.clipping import clipped, points_within
 
 RING = cylinder(0.3, 0.4, segments=48) - cylinder(0.2, 0.4, segments=48)
 CELL = np.array([[-0.1, -0.25, 0.1], [0.5, 0.26, 0.3]])
