@@ -216,6 +216,7 @@ class LossWeights:
         origin: squared distance of axis points, revolute parts.
         motion: squared difference of motions, movable parts; see `motion_as`.
         limits: squared difference of limits, movable parts.
+        range: 1 - generalized IoU of ranges, movable parts: squares hardly see a button's way.
         parent: cross-entropy of parents.
         count: cross-entropy of the number of parts.
         part_rgb: squared difference of colors, each part seen alone.
@@ -252,6 +253,7 @@ class LossWeights:
     unmoved: float = 0.0
     overlap: float = dataclasses.field(default=0.0, metadata=LATER)
     motion_as: Literal["numbers", "paths"] = dataclasses.field(default="numbers", metadata=LATER)
+    range: float = dataclasses.field(default=0.0, metadata=LATER)
 
 
 @dataclass(frozen=True, kw_only=True)

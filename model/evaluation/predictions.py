@@ -16,9 +16,7 @@ from artgen.core.errors import ModelError
 from artgen.core.mesh import TriMesh
 from model.batch import Articulation
 from model.evaluation.layout import Layout, unit_axes
-
-FULL_TURN = 1.0 - 1e-6
-"""Width of a revolute joint's limits, in turns, from which on it is endless."""
+from model.reconstruct.joints import ENDLESS
 
 
 def layout_of(
@@ -31,6 +29,8 @@ def layout_of(
     meshes: Mapping[int, TriMesh] | None = None,
 ) -> Layout:
     """The layout of object `index`, in m where `radius` is one radius in m.
+
+    A revolute joint has no ends where `artgen reconstruct` would state none.
 
     Args:
         meshes: slot to the part's surface at rest in the layout's unit.
@@ -58,7 +58,7 @@ def layout_of(
         labels=("base", *(f"part_{slot}" for slot in slots[1:])),
         boxes=np.stack([center - half, center + half], axis=1),
         types=types,
-        endless=turning & (np.ptp(limits, axis=1) >= FULL_TURN),
+        endless=turning & (np.ptp(limits, axis=1) >= ENDLESS),
         axes=unit_axes(_array(articulation.axis_BP3[index])[slots], types),
         origins=np.where(turning[:, None], origins, 0.0),
         limits=limits * unit[:, None],

@@ -3,7 +3,8 @@ look.
 
 A field's colors are as coarse as its planes; the photographs are not. Where no camera sees a point,
 it takes the color of what is seen beside it on the same part and looks the same way, such as around
-an edge; farther away the field's color stands.
+an edge. Farther away the field's color stands, shifted by what it is wrong by where the part is
+seen: a field may be too dark all over, and one that was given up for a box often is.
 """
 
 from collections.abc import Mapping
@@ -71,8 +72,8 @@ class PhotoColors:
         self._scenes = [_scene(obj, poses) for poses in self._poses]
 
     def __call__(self, part: str, points: Floats, normals: Floats, rgb: Floats) -> Floats:
-        """(N, 3) sRGB in [0, 1] of points of a part at rest, with unit normals; `rgb` is what they
-        have where no photograph shows them."""
+        """(N, 3) sRGB in [0, 1] of points of a part at rest, with unit normals; `rgb` is what the
+        field says of them."""
         total = DOUBT * rgb
         weight = np.full((len(points), 1), DOUBT)
         every = zip(self._photos, self._inner, self._poses, self._scenes, strict=True)
@@ -80,7 +81,17 @@ class PhotoColors:
             share, color = _seen(photo, inner, poses[part], scene, points, normals)
             total = total + share[:, None] * color
             weight = weight + share[:, None]
-        return spread(points, normals, np.asarray(total / weight), weight[:, 0] - DOUBT > SEEN)
+        seen = weight[:, 0] - DOUBT > SEEN
+        return spread(points, normals, shifted(rgb, np.asarray(total / weight), seen), seen)
+
+
+def shifted(rgb: Floats, shown: Floats, seen: NDArray[np.bool_]) -> Floats:
+    """(N, 3) the photographs' colors of points that are seen; of the others their own, by as much
+    brighter or darker, channel by channel, as the photographs are on average."""
+    if not seen.any():
+        return shown
+    shift = (shown[seen] - rgb[seen]).mean(axis=0)
+    return np.asarray(np.where(seen[:, None], shown, (rgb + shift).clip(0.0, 1.0)))
 
 
 def spread(points: Floats, normals: Floats, rgb: Floats, seen: NDArray[np.bool_]) -> Floats:

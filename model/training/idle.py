@@ -26,9 +26,13 @@ def idle_line(idle: dict[str, str]) -> str:
 
 def _heads(config: Config) -> dict[str, str]:
     model = config.model
-    heads = {"limits": model.limits, "parent": model.tree, "count": model.count}
-    switches = {"limits": "limits", "parent": "tree", "count": "count"}
-    return {name: f"model.{switches[name]} is off" for name, there in heads.items() if not there}
+    heads = {
+        "limits": ("limits", model.limits),
+        "range": ("limits", model.limits),
+        "parent": ("tree", model.tree),
+        "count": ("count", model.count),
+    }
+    return {name: f"model.{head} is off" for name, (head, there) in heads.items() if not there}
 
 
 def _images(config: Config, *, perceptual: bool) -> dict[str, str]:

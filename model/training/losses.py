@@ -20,7 +20,7 @@ from model.config import LossWeights
 from model.field.volume import RayColors
 from model.network.prediction import TYPE_OF_LOGIT, Prediction
 from model.precision import full
-from model.training.box_overlap import generalized_iou
+from model.training.overlap import box_giou, range_giou
 
 ImageDistance = Callable[[Tensor, Tensor], Tensor]
 """(X, 3, h, w) and the same again, colors in [0, 1] -> (X,) how different they look."""
@@ -70,7 +70,7 @@ def articulation_terms(
     terms = {
         "center": squared(said.center_BP3, truth.center_BP3, held),
         "size": squared(said.size_BP3, truth.size_BP3, held),
-        "overlap": mean(1.0 - generalized_iou(said, truth), held),
+        "overlap": mean(1.0 - box_giou(said, truth), held),
         "type": type_entropy(prediction.type_logits_BP2, truth.type_BP, moves),
         "axis": squared(sign_BP1 * prediction.axis_BP3, truth.axis_BP3, taught),
         "origin": origin_error(
@@ -80,6 +80,7 @@ def articulation_terms(
     }
     if prediction.limited:
         terms["limits"] = mean_squared(said.limits_BP2, truth.limits_BP2, moves)
+        terms["range"] = mean(1.0 - range_giou(said.limits_BP2, truth.limits_BP2), moves)
     if prediction.parent_logits_BPP is not None:
         terms["parent"] = entropy(prediction.parent_logits_BPP, truth.parent_BP, moves)
     if prediction.count_logits_BQ is not None:

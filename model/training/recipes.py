@@ -106,8 +106,8 @@ TRAIN: Mapping[Size, TrainConfig] = {
     ),
 }
 
-SMALL = LossWeights(motion=10.0, motion_as="paths", overlap=4.0)
-"""Motions compared by the ways that parts go, boxes by their overlap as well."""
+SMALL = LossWeights(motion=10.0, motion_as="paths", overlap=4.0, range=1.0)
+"""Motions compared by the ways that parts go, boxes and ranges by their overlap as well."""
 
 WEIGHTS: Mapping[Size, LossWeights] = {
     "nano": dataclasses.replace(SMALL, part_perceptual=0.0),
@@ -145,7 +145,14 @@ def static_pretrain(size: Size) -> Config:
     data = dataclasses.replace(config.data, motion="rest")
     train = dataclasses.replace(config.train, rendered=0.0, forced=1.0)
     weights = dataclasses.replace(
-        config.weights, type=0.0, axis=0.0, origin=0.0, motion=0.0, limits=0.0, parent=0.0
+        config.weights,
+        type=0.0,
+        axis=0.0,
+        origin=0.0,
+        motion=0.0,
+        limits=0.0,
+        range=0.0,
+        parent=0.0,
     )
     return dataclasses.replace(
         config, recipe="static_pretrain", data=data, weights=weights, train=train

@@ -8,7 +8,7 @@ from artgen.geometry.normals import face_vectors
 from model.reconstruct.assemble import Assembled
 from model.reconstruct.capture import Capture
 from model.reconstruct.draw import Painter
-from model.reconstruct.photo import BESIDE, DOUBT, TURNED, PhotoColors, spread
+from model.reconstruct.photo import BESIDE, DOUBT, TURNED, PhotoColors, shifted, spread
 from model.reconstruct.run import photos
 from model.reconstruct.skin import colored
 from tests.unit.model.reconstruct.perfect import COLORS
@@ -64,6 +64,21 @@ def test_hidden_faces_are_not_painted_through(perfect: Assembled, capture: Captu
     hidden = np.array([[0.0, high[1] + 0.02, (low[2] + high[2]) / 2.0 - 0.06]])
     found = paint("base", hidden, np.array([[0.0, -1.0, 0.0]]), gray(hidden))
     assert np.array_equal(found, gray(hidden))
+
+
+def test_a_field_that_is_too_dark_is_brightened_where_nobody_looks() -> None:
+    """Dark by the same everywhere: mended entirely. Nothing seen: the field's word. Never beyond
+    what a color can be."""
+    true = np.linspace(0.3, 0.9, 60).reshape(20, 3)
+    seen = np.arange(20) % 2 == 0
+    dark = true - [0.3, 0.2, 0.1]
+    shown = np.where(seen[:, None], true, dark)
+    # Some ten sums of numbers below 1.
+    assert np.abs(shifted(dark, shown, seen) - true).max() <= 20 * 2.0**-52
+    assert np.array_equal(shifted(dark, dark, np.zeros(20, bool)), dark)
+    white = shifted(true, np.where(seen[:, None], 1.0, true), seen)
+    assert white.max() == 1.0
+    assert np.array_equal(white[seen], np.ones((10, 3)))
 
 
 def test_color_spreads_around_an_edge_and_no_farther() -> None:

@@ -33,7 +33,8 @@ def test_without_its_package_the_perceptual_term_alone_is_idle() -> None:
         (["weights.part_perceptual=1"], "data.patch_px is 0"),
         (["weights.distance=1", "data.rays=0"], "data.rays is 0"),
         (["weights.distance=1", "train.rendered=1"], "train.rendered is 1"),
-        (["model.limits=false"], "model.limits is off"),
+        (["model.limits=false"], "limits (model.limits is off)"),
+        (["model.limits=false", "weights.range=1"], "range (model.limits is off)"),
         (["model.tree=false"], "model.tree is off"),
     ],
 )

@@ -1,4 +1,4 @@
-"""Laws of the overlap of boxes: a second implementation, right slopes, nothing infinite."""
+"""Laws of the overlap of boxes and ranges: a second implementation, right slopes, all finite."""
 
 import dataclasses
 
@@ -9,7 +9,7 @@ from torch import Tensor
 
 from model.batch import Articulation
 from model.evaluation.boxes import giou_upright
-from model.training.box_overlap import LEAST_SIDE, generalized_iou
+from model.training.overlap import LEAST_RANGE, LEAST_SIDE, box_giou, range_giou
 from tests.unit.model.tiny_art import drawn_truth
 
 
@@ -38,7 +38,7 @@ def test_it_is_the_score_that_networks_are_held_to(seed: int) -> None:
     scored = [giou_upright(a, b) for a, b in zip(corners(first), corners(second), strict=True)]
     # Some twenty float64 operations on volumes of 1e-3 to 10 that share no cancelling leading digit
     # but in a difference of corners: 1e4 of eps holds.
-    np.testing.assert_allclose(generalized_iou(first, second)[0].numpy(), scored, atol=2.5e-12)
+    np.testing.assert_allclose(box_giou(first, second)[0].numpy(), scored, atol=2.5e-12)
 
 
 def test_cubes_in_known_places() -> None:
@@ -46,7 +46,7 @@ def test_cubes_in_known_places() -> None:
     unit = torch.ones(3, 3, dtype=torch.float64)
     moved = torch.zeros(3, 3, dtype=torch.float64)
     moved[1, 0], moved[2, 0] = 0.5, 2.0
-    found = generalized_iou(boxes(torch.zeros_like(moved), unit), boxes(moved, unit))
+    found = box_giou(boxes(torch.zeros_like(moved), unit), boxes(moved, unit))
     np.testing.assert_allclose(found[0].numpy(), [1.0, 1.0 / 3.0, -1.0 / 3.0], atol=1e-15)
 
 
@@ -56,7 +56,7 @@ def test_slopes_are_right(seed: int) -> None:
 
     def overlap(center: Tensor, size: Tensor) -> Tensor:
         said = dataclasses.replace(first, center_BP3=center, size_BP3=size)
-        return generalized_iou(said, second)
+        return box_giou(said, second)
 
     inputs = [first.center_BP3.requires_grad_(), first.size_BP3.requires_grad_()]
     assert torch.autograd.gradcheck(overlap, inputs)
@@ -70,7 +70,7 @@ def test_slopes_are_right_of_boxes_apart_within_and_around() -> None:
     second = boxes(torch.zeros_like(center), torch.ones_like(size))
 
     def overlap(center: Tensor, size: Tensor) -> Tensor:
-        return generalized_iou(boxes(center, size), second)
+        return box_giou(boxes(center, size), second)
 
     assert torch.autograd.gradcheck(overlap, (center.requires_grad_(), size.requires_grad_()))
 
@@ -79,7 +79,7 @@ def test_a_box_far_off_is_drawn_nearer() -> None:
     """Plain IoU is flat where boxes do not meet."""
     center = torch.tensor([[3.0, 0.0, 0.0]], dtype=torch.float64, requires_grad=True)
     size = torch.ones(1, 3, dtype=torch.float64)
-    generalized_iou(boxes(center, size), boxes(torch.zeros_like(size), size)).sum().backward()
+    box_giou(boxes(center, size), boxes(torch.zeros_like(size), size)).sum().backward()
     assert center.grad is not None
     assert float(center.grad[0, 0]) < 0.0
 
@@ -93,7 +93,7 @@ def test_flat_boxes_have_finite_values_and_slopes(
     size = torch.tensor([sides, sides], dtype=dtype, requires_grad=True)
     center = torch.tensor([(0.0, 0.0, 0.0), (0.0, 0.0, 0.5)], dtype=dtype, requires_grad=True)
     true = boxes(torch.zeros(2, 3, dtype=dtype), torch.tensor([sides, sides], dtype=dtype))
-    found = generalized_iou(boxes(center, size), true)
+    found = box_giou(boxes(center, size), true)
     found.sum().backward()
     assert float(found[0, 0].detach()) == 1.0
     # Half a radius off along z: the volume between counts, (0.5 - LEAST_SIDE) of 0.5 + LEAST_SIDE;
@@ -115,6 +115,59 @@ def test_a_small_part_counts_as_much_as_a_large_one() -> None:
     )
     wide = [boxes(of.center_BP3[0], of.size_BP3[0].clamp(min=0.2)) for of in (large, other)]
     # The same twenty operations on rounded hundredths.
+    torch.testing.assert_close(box_giou(small, far), box_giou(*wide), rtol=0.0, atol=2.5e-12)
+
+
+def test_a_range_is_a_box_of_one_side() -> None:
+    """Ranges longer than the least, as boxes that are a radius wide and high."""
+    torch.manual_seed(0)
+    ends = torch.randn(2, 40, 2, dtype=torch.float64).sort(dim=-1).values
+    bars = []
+    for low, high in (each.unbind(dim=-1) for each in ends):
+        center = torch.stack([(low + high) / 2.0, torch.zeros(40), torch.zeros(40)], dim=1)
+        side = torch.stack([(high - low).clamp(min=LEAST_RANGE), *torch.ones(2, 40)], dim=1)
+        bars.append(boxes(center, side))
+    # Ten float64 operations on lengths of 1e-3 to 10.
     torch.testing.assert_close(
-        generalized_iou(small, far), generalized_iou(*wide), rtol=0.0, atol=2.5e-12
+        range_giou(ends[:1], ends[1:]), box_giou(*bars), rtol=0.0, atol=2.5e-12
     )
+
+
+def test_ranges_in_known_places() -> None:
+    """Equal; half of the other; in reverse; a length apart; two equal points, and two apart."""
+    half = LEAST_RANGE / 2.0
+    ours = [[0.0, 0.2], [0.0, 0.1], [0.2, 0.0], [0.4, 0.6], [0.3, 0.3], [0.3 + half, 0.3 + half]]
+    true = [[0.0, 0.2]] * 4 + [[0.3, 0.3], [0.3 - half, 0.3 - half]]
+    found = range_giou(*(torch.tensor([ends], dtype=torch.float64) for ends in (ours, true)))
+    expected = [1.0, 0.5, 1.0, -1.0 / 3.0, 1.0, 0.0]
+    np.testing.assert_allclose(found[0].numpy(), expected, atol=1e-12)
+
+
+def test_slopes_of_ranges_are_right_and_draw_far_ones_nearer() -> None:
+    """Within, around, across either end, apart, in reverse, and shorter than counts."""
+    ours = [
+        [0.1, 0.2],
+        [-0.2, 0.5],
+        [-0.1, 0.1],
+        [0.2, 0.4],
+        [0.7, 0.9],
+        [0.25, 0.05],
+        [0.1, 0.1005],
+    ]
+    true = torch.tensor([[[0.0, 0.3]] * len(ours)], dtype=torch.float64)
+    ends = torch.tensor([ours], dtype=torch.float64, requires_grad=True)
+    assert torch.autograd.gradcheck(lambda said: range_giou(said, true), (ends,))
+    range_giou(ends, true)[0, 4].backward()
+    assert ends.grad is not None
+    assert (ends.grad[0, 4] < 0.0).any()
+    assert float(ends.grad[0, 4].sum()) < 0.0
+
+
+@pytest.mark.parametrize("dtype", [torch.float32, torch.bfloat16])
+def test_points_have_finite_values_and_slopes(dtype: torch.dtype) -> None:
+    ends = torch.zeros(1, 3, 2, dtype=dtype, requires_grad=True)
+    found = range_giou(ends, torch.tensor([[[0.0, 0.0], [0.0, 1.0], [0.5, 0.5]]]))
+    found.sum().backward()
+    assert ends.grad is not None
+    assert ends.grad.isfinite().all()
+    assert float(found[0, 0].detach()) == 1.0
