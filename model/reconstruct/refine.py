@@ -9,8 +9,8 @@ import dataclasses
 import numpy as np
 
 from artgen.core.mesh import Floats
-from model.reconstruct.agreement import Silhouettes, agreement
 from model.reconstruct.guess import ColorAt, JointGuess, ObjectGuess, PartGuess
+from model.reconstruct.outlines import Outlines, Silhouettes
 from model.reconstruct.shapes import LEAST_SIDE
 
 STEPS = (0.06, 0.03, 0.015)
@@ -27,13 +27,14 @@ WORTH = 0.002
 
 def refined(guess: ObjectGuess, seen: Silhouettes) -> ObjectGuess:
     """The guess moved to where its silhouettes agree best with those that were seen."""
-    start = best = agreement(guess, seen)
+    outlines = Outlines(guess, seen)
+    start = best = outlines.agreement(guess)
     first = guess
     for step in STEPS if len(guess.parts) < MANY else STEPS[:-1]:
         for change in range(count_of(guess)):
             for sign in (1.0, -1.0):
                 tried = changed(guess, first, change, sign * step)
-                value = best if tried is None else agreement(tried, seen)
+                value = best if tried is None else outlines.agreement(tried)
                 if tried is not None and value > best + WORTH:
                     guess, best = tried, value
                     break

@@ -16,10 +16,11 @@ from model.config import Config
 from model.infer import check_states, predict
 from model.network.art import Art
 from model.network.prediction import Prediction
-from model.reconstruct.agreement import Silhouettes, agreement, silhouettes
+from model.reconstruct.agreement import agreement
 from model.reconstruct.capture import Capture
 from model.reconstruct.choice import Choice
 from model.reconstruct.guess import object_guess
+from model.reconstruct.outlines import Silhouettes, silhouettes
 from model.reconstruct.sight import Sphere, network_images, reposed
 from model.reconstruct.sphere_fit import fitted, told_sphere
 from model.reconstruct.states import Answer, completed, state_groups

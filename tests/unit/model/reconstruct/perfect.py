@@ -7,7 +7,9 @@ import numpy as np
 from artgen.articulation.types import JointType
 from artgen.core.mesh import Floats
 from artgen.geometry.solid import Solid, slab
+from model.reconstruct.assemble import Assembled
 from model.reconstruct.guess import JointGuess, ObjectGuess, PartGuess
+from model.reconstruct.sight import Sphere
 
 RADIUS = 0.7
 COLORS = {0: (0.8, 0.7, 0.5), 1: (0.2, 0.4, 0.8), 2: (0.8, 0.2, 0.2)}
@@ -83,4 +85,15 @@ def cabinet(*, overlap: float = 0.0) -> ObjectGuess:
             joint(2, "prismatic", axis=(0.0, -1.0, 0.0), upper=0.35, observed=(0.2, 0.1)),
         ),
         radius=RADIUS,
+    )
+
+
+def sphere(perfect: Assembled, *, unit: float = 1.0) -> Sphere:
+    """The cabinet's, in a file whose unit of length is `unit` m."""
+    return Sphere(
+        center=perfect.shift / unit,
+        radius=RADIUS / unit,
+        meters=unit,
+        center_stated=True,
+        radius_stated=True,
     )

@@ -3,36 +3,12 @@
 import dataclasses
 
 import numpy as np
-import pytest
 
-from model.reconstruct.agreement import Silhouettes, agreeing, agreement, poses_of, silhouettes
-from model.reconstruct.assemble import Assembled
-from model.reconstruct.capture import Capture
+from model.reconstruct.agreement import agreeing, agreement
 from model.reconstruct.guess import ObjectGuess
+from model.reconstruct.outlines import Silhouettes
 from model.reconstruct.refine import STEPS, refined
-from model.reconstruct.sight import network_images
-from tests.unit.model.reconstruct.perfect import RADIUS, cabinet
 from tests.unit.model.reconstruct.studio import STATES
-from tests.unit.model.reconstruct.test_sight import sphere
-
-
-@pytest.fixture(scope="module")
-def seen(perfect: Assembled, capture: Capture) -> Silhouettes:
-    images = network_images(capture, sphere(perfect), size=48, background="white")
-    return silhouettes(images, RADIUS)
-
-
-@pytest.fixture
-def guess() -> ObjectGuess:
-    """The cabinet in the states of the photographs."""
-    found = cabinet()
-    joints = [
-        dataclasses.replace(
-            joint, observed=np.array([state[f"part_{joint.slot}_joint"] for state in STATES])
-        )
-        for joint in found.joints
-    ]
-    return dataclasses.replace(found, joints=tuple(joints))
 
 
 def test_the_truth_agrees(guess: ObjectGuess, seen: Silhouettes) -> None:
@@ -44,17 +20,6 @@ def test_a_closed_door_agrees_less_than_an_open_one(guess: ObjectGuess, seen: Si
     door = dataclasses.replace(guess.joints[0], observed=np.zeros(2))
     wrong = dataclasses.replace(guess, joints=(door, guess.joints[1]))
     assert agreement(wrong, seen) < agreement(guess, seen) - 0.02
-
-
-def test_poses_follow_parents_and_circles_end(guess: ObjectGuess) -> None:
-    one, two = guess.joints
-    poses = poses_of(
-        dataclasses.replace(guess, joints=(one, dataclasses.replace(two, parent=1))), 1
-    )
-    alone = poses_of(guess, 1)
-    assert np.abs(poses[2] - alone[1] @ alone[2]).max() <= 1e-12
-    circle = (dataclasses.replace(one, parent=2), dataclasses.replace(two, parent=1))
-    assert set(poses_of(dataclasses.replace(guess, joints=circle), 0)) == {0, 1, 2}
 
 
 def test_a_shrunken_field_gives_way_to_its_box(guess: ObjectGuess, seen: Silhouettes) -> None:

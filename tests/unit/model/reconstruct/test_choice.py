@@ -20,8 +20,8 @@ from model.reconstruct.choice import (
     widest,
 )
 from model.reconstruct.rig import read_rig
+from tests.unit.model.reconstruct.perfect import sphere
 from tests.unit.model.reconstruct.studio import AZIMUTHS
-from tests.unit.model.reconstruct.test_sight import sphere
 
 FRONT = DataConfig(views=2, azimuth_deg=80.0)
 

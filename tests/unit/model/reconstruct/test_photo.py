@@ -11,8 +11,7 @@ from model.reconstruct.draw import Painter
 from model.reconstruct.photo import BESIDE, DOUBT, TURNED, PhotoColors, shifted, spread
 from model.reconstruct.run import photos
 from model.reconstruct.skin import colored
-from tests.unit.model.reconstruct.perfect import COLORS
-from tests.unit.model.reconstruct.test_sight import sphere
+from tests.unit.model.reconstruct.perfect import COLORS, sphere
 
 GRAY = 0.25
 

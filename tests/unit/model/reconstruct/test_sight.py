@@ -6,19 +6,8 @@ import torch
 from model.reconstruct.assemble import Assembled
 from model.reconstruct.capture import Capture
 from model.reconstruct.run import reprojections
-from model.reconstruct.sight import Sphere, in_object, in_radii, network_images
-from tests.unit.model.reconstruct.perfect import RADIUS
-
-
-def sphere(perfect: Assembled, *, unit: float = 1.0) -> Sphere:
-    """The cabinet's, in a file whose unit of length is `unit` m."""
-    return Sphere(
-        center=perfect.shift / unit,
-        radius=RADIUS / unit,
-        meters=unit,
-        center_stated=True,
-        radius_stated=True,
-    )
+from model.reconstruct.sight import in_object, in_radii, network_images
+from tests.unit.model.reconstruct.perfect import RADIUS, sphere
 
 
 def test_the_object_reprojects_onto_its_photographs(perfect: Assembled, capture: Capture) -> None:
