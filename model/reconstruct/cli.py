@@ -71,8 +71,8 @@ class Reconstruct:
     films: bool = True
     """Also make the GIFs and the reprojection."""
     refine: bool = True
-    """Fit sides of boxes and states of joints to the silhouettes of all images; else they are as
-    the network says."""
+    """Fit the states of joints to the silhouettes of all images; else they are as the network
+    says."""
     device: Literal["auto", "cpu", "cuda"] = "cpu"
     """Where the network predicts and its fields become surfaces; auto takes a GPU if there is one.
     """

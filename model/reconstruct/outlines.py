@@ -1,7 +1,7 @@
-"""Which rays of the photographs meet which part, while parts are moved and stretched.
+"""Which rays of the photographs meet which part, while parts are moved.
 
 An acceleration structure costs more than the rays that are shot at it. So a part has one, at rest;
-where the part was moved or stretched, rays are taken back to it instead, and answers are kept.
+where the part is moved, rays are taken back to it instead, and answers are kept.
 """
 
 import math
@@ -58,17 +58,15 @@ class Outlines:
 
     def __init__(self, guess: ObjectGuess, seen: Silhouettes) -> None:
         self._seen = seen
-        self._parts = {part.slot: part for part in guess.parts}
         self._scenes = {part.slot: _scene(part) for part in guess.parts}
         self._kept: dict[tuple[int, int, bytes], Mask] = {}
 
     def of(self, guess: ObjectGuess) -> list[Mask]:
-        """(T, V, N) rays that meet a part, of every part; each has the vertices of the first
-        guess's, or those stretched along the axes."""
+        """(T, V, N) rays that meet a part, of every part; a guess of the same parts."""
         states = range(len(self._seen.mask))
         poses = [poses_of(guess, t) for t in states]
         return [
-            np.stack([self._met(part, t, poses[t][part.slot]) for t in states])
+            np.stack([self._met(part.slot, t, poses[t][part.slot]) for t in states])
             for part in guess.parts
         ]
 
@@ -76,11 +74,10 @@ class Outlines:
         """Mean IoU of the silhouettes of a guess, moved as it says, with those that were seen."""
         return overlap(self.of(guess), self._seen)
 
-    def _met(self, part: PartGuess, state: int, pose: Floats) -> Mask:
-        rest_from_object = np.linalg.inv(pose @ stretch(self._parts[part.slot], part))
-        key = part.slot, state, rest_from_object.tobytes()
+    def _met(self, slot: int, state: int, pose: Floats) -> Mask:
+        key = slot, state, pose.tobytes()
         if key not in self._kept:
-            self._kept[key] = self._cast(part.slot, state, rest_from_object)
+            self._kept[key] = self._cast(slot, state, inverted(pose))
         return self._kept[key]
 
     def _cast(self, slot: int, state: int, rest_from_object: Floats) -> Mask:
@@ -90,21 +87,6 @@ class Outlines:
         starts = np.broadcast_to(starts[:, None], ways.shape).reshape(-1, 3)
         hit = self._scenes[slot].run(np.ascontiguousarray(starts), ways.reshape(-1, 3))
         return np.asarray((hit >= 0).reshape(ways.shape[:2]))
-
-
-def stretch(first: PartGuess, part: PartGuess) -> Floats:
-    """(4, 4) what takes the vertices of a part to those that it has since its box was stretched."""
-    pose = np.eye(4)
-    if part.vertices is first.vertices:
-        return pose
-    (low, high), (new_low, new_high) = (
-        (own.vertices.min(axis=0), own.vertices.max(axis=0)) for own in (first, part)
-    )
-    wide = high > low
-    scale = np.where(wide, (new_high - new_low) / np.where(wide, high - low, 1.0), 1.0)
-    pose[:3, :3] = np.diag(scale)
-    pose[:3, 3] = new_low - scale * low
-    return pose
 
 
 def poses_of(guess: ObjectGuess, state: int) -> dict[int, Floats]:

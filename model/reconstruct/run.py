@@ -59,7 +59,7 @@ class Order:
         resolution: of the grid that each part is extracted on.
         photos: whether the colors come from the images where they show them, else from the field.
         films: whether GIFs and the reprojection are made.
-        refine: whether boxes and states are fitted to the silhouettes.
+        refine: whether states are fitted to the silhouettes.
         device: where the network predicts and its fields are meshed: cpu, cuda or auto.
     """
 
