@@ -39,6 +39,8 @@ class Reconstruct:
 
     artgen reconstruct photos --cameras sparse/0 --masks masks --parts 3
 
+    artgen reconstruct kettle --parts 3 --checkpoint art_nano_all
+
     Photographs of each state go into state_0/, state_1/ ... before COLMAP sees them, or their names
     begin so. docs/reconstruct.md describes the formats.
     """
@@ -49,7 +51,8 @@ class Reconstruct:
     """Camera file, or COLMAP's folder; cameras.json, transforms.json or images.txt in IMAGES if not
     given."""
     checkpoint: Path | None = None
-    """A trained network (art.safetensors); the one that ships if not given."""
+    """A trained network (art.safetensors), or one of those that ship: art_nano, the default, knows
+    ten categories; art_nano_all knows all 27, less exactly."""
     parts: int | None = None
     """How many parts the object has, base included; if not given, the network counts."""
     out: Path | None = None
@@ -108,7 +111,7 @@ def ordered(command: Reconstruct) -> run.Order:
     return run.Order(
         images=command.images,
         cameras=command.cameras or cameras_beside(command.images),
-        checkpoint=command.checkpoint or shipped_checkpoint(),
+        checkpoint=checkpoint_of(command.checkpoint),
         parts=command.parts,
         out=command.out or Path("out/reconstruct") / command.images.resolve().name,
         masks=command.masks,
@@ -142,20 +145,33 @@ def cameras_beside(images: Path) -> Path:
     raise UsageError(f"{images}: holds none of {', '.join(NAMES)}; say --cameras FILE")
 
 
-SHIPPED = "art_nano.safetensors"
+SHIPPED = "art_nano"
 
 
-def shipped_checkpoint() -> Path:
-    """The network that comes with the package.
+def checkpoint_of(said: Path | None) -> Path:
+    """The file of a network: one of ours by its bare name, or what was said.
 
     Raises:
-        ModelError: this installation has none.
+        ModelError: it is no file and not the name of a network that ships.
     """
-    path = Path(str(files("model"))) / "checkpoints" / SHIPPED
+    if said is not None and (said.suffix or said.is_file()):
+        return said
+    return shipped_checkpoint(said)
+
+
+def shipped_checkpoint(name: Path | str | None = None) -> Path:
+    """A network that comes with the package; the one of ten categories if none is named.
+
+    Raises:
+        ModelError: this installation has no such network.
+    """
+    folder = Path(str(files("model"))) / "checkpoints"
+    path = folder / f"{name or SHIPPED}.safetensors"
     if not path.is_file():
+        known = sorted(file.stem for file in folder.glob("*.safetensors"))
         raise ModelError(
-            f"{path}: no checkpoint ships with this installation; train one by `artgen train` and "
-            "say --checkpoint FILE"
+            f"{path}: no such checkpoint ships with this installation, which has "
+            f"{', '.join(known) or 'none'}; train one by `artgen train` and say --checkpoint FILE"
         )
     return path
 

@@ -14,7 +14,7 @@ from model.config import Config
 from model.network.art import Art
 from model.reconstruct import cli as command
 from model.reconstruct.assemble import Assembled
-from model.reconstruct.cli import Reconstruct, ordered, shipped_checkpoint
+from model.reconstruct.cli import Reconstruct, checkpoint_of, ordered, shipped_checkpoint
 from model.reconstruct.run import STAGES, Stopwatch, asset_name, made_object, reconstruct
 from model.training.art_file import ModelCard, save_art
 from model.training.recipes import RECIPES, articulation_only
@@ -132,11 +132,27 @@ def test_without_a_shipped_checkpoint_one_is_asked_for(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(command, "files", lambda package: tmp_path)
-    with pytest.raises(ModelError, match="no checkpoint ships with this installation"):
+    with pytest.raises(
+        ModelError, match="no such checkpoint ships with this installation, which has none"
+    ):
         shipped_checkpoint()
     (tmp_path / "checkpoints").mkdir()
     (tmp_path / "checkpoints/art_nano.safetensors").write_bytes(b"")
     assert shipped_checkpoint().name == "art_nano.safetensors"
+
+
+def test_networks_that_ship_go_by_their_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A file of that name goes first, and a name that is none is told beside those that are."""
+    assert checkpoint_of(None).stem == "art_nano"
+    assert checkpoint_of(Path("art_nano_all")).name == "art_nano_all.safetensors"
+    assert checkpoint_of(Path("mine.safetensors")) == Path("mine.safetensors")
+    with pytest.raises(ModelError, match=r"has art_nano, art_nano_all; train one"):
+        checkpoint_of(Path("art_mini"))
+    monkeypatch.chdir(tmp_path)
+    Path("art_nano").write_bytes(b"")
+    assert checkpoint_of(Path("art_nano")) == Path("art_nano")
 
 
 @pytest.mark.parametrize(
