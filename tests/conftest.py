@@ -13,6 +13,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")  # Read once, when numpy and torch
 import pytest
 from hypothesis import settings
 
+import artgen  # noqa: F401  # Chooses numpy's kernel, too.
 from artgen.worker import BlenderWorker
 
 settings.register_profile("ci", derandomize=True, deadline=None)
