@@ -16,6 +16,13 @@ CPU = Path("/proc/cpuinfo")
 
 def one_kernel() -> None:
     """Ask OpenBLAS for `KERNEL` where the processor can run it and nobody asked for another."""
-    flags = set(CPU.read_text().split()) if CPU.is_file() else set()
-    if {"avx2", "fma"} <= flags:
+    if {"avx2", "fma"} <= _flags():
         os.environ.setdefault(VARIABLE, KERNEL)
+
+
+def _flags() -> set[str]:
+    """Of the first core: a server's file lists hundreds."""
+    if not CPU.is_file():
+        return set()
+    with CPU.open() as lines:
+        return set(next((line for line in lines if line.startswith("flags")), "").split())

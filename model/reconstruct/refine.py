@@ -10,7 +10,7 @@ import dataclasses
 
 import numpy as np
 
-from model.reconstruct.guess import JointGuess, ObjectGuess
+from model.reconstruct.guess import ObjectGuess
 from model.reconstruct.outlines import Outlines, Silhouettes
 
 STEPS = (0.06, 0.03, 0.015, 0.0075)
@@ -43,12 +43,9 @@ def refined(guess: ObjectGuess, seen: Silhouettes) -> ObjectGuess:
 
 def moved(guess: ObjectGuess, place: int, state: int, step: float) -> ObjectGuess:
     """The guess with a joint farther open by a step in one state."""
-    joints = list(guess.joints)
-    joints[place] = _moved(joints[place], state, step, guess.radius)
-    return dataclasses.replace(guess, joints=tuple(joints))
-
-
-def _moved(joint: JointGuess, state: int, step: float, radius: float) -> JointGuess:
+    joint = guess.joints[place]
     observed = joint.observed.copy()
-    observed[state] += step * (radius if joint.type == "prismatic" else 2.0 * np.pi)
-    return dataclasses.replace(joint, observed=observed)
+    observed[state] += step * (guess.radius if joint.type == "prismatic" else 2.0 * np.pi)
+    joints = list(guess.joints)
+    joints[place] = dataclasses.replace(joint, observed=observed)
+    return dataclasses.replace(guess, joints=tuple(joints))

@@ -25,12 +25,7 @@ def box_giou(ours: Articulation, theirs: Articulation) -> Tensor:
 
     Volumes are at least that of a cube of `LEAST_SIDE`, so that values and slopes are finite.
     """
-    lows, highs = zip(*(_corners(boxes) for boxes in (ours, theirs)), strict=True)
-    shared_BP = _volume(torch.minimum(*highs) - torch.maximum(*lows))
-    around_BP = _volume(torch.maximum(*highs) - torch.minimum(*lows))
-    each = [_volume(high - low) for low, high in zip(lows, highs, strict=True)]
-    union_BP = each[0] + each[1] - shared_BP
-    return shared_BP / union_BP - (around_BP - union_BP) / around_BP
+    return _giou(_corners(ours), _corners(theirs))
 
 
 def range_giou(ours_BP2: Tensor, theirs_BP2: Tensor) -> Tensor:
@@ -38,27 +33,34 @@ def range_giou(ours_BP2: Tensor, theirs_BP2: Tensor) -> Tensor:
 
     Ranges are at least `LEAST_RANGE` long, from their middle; of ours the ends may be in any order.
     """
-    (low_BP, high_BP), (true_low_BP, true_high_BP) = (
-        _ends(limits_BP2) for limits_BP2 in (ours_BP2, theirs_BP2)
-    )
-    nearest_BP = torch.minimum(high_BP, true_high_BP) - torch.maximum(low_BP, true_low_BP)
-    around_BP = torch.maximum(high_BP, true_high_BP) - torch.minimum(low_BP, true_low_BP)
-    shared_BP = nearest_BP.clamp(min=0.0)
-    union_BP = (high_BP - low_BP) + (true_high_BP - true_low_BP) - shared_BP
+    return _giou(_ends(ours_BP2), _ends(theirs_BP2))
+
+
+Corners = tuple[Tensor, Tensor]
+"""(B, P, D) lower and upper corners in D dimensions."""
+
+
+def _giou(ours: Corners, theirs: Corners) -> Tensor:
+    """(B, P)."""
+    lows, highs = zip(ours, theirs, strict=True)
+    shared_BP = _volume(torch.minimum(*highs) - torch.maximum(*lows))
+    around_BP = _volume(torch.maximum(*highs) - torch.minimum(*lows))
+    each = [_volume(high - low) for low, high in (ours, theirs)]
+    union_BP = each[0] + each[1] - shared_BP
     return shared_BP / union_BP - (around_BP - union_BP) / around_BP
 
 
-def _ends(limits_BP2: Tensor) -> tuple[Tensor, Tensor]:
-    first_BP, second_BP = full(limits_BP2).unbind(dim=-1)
-    middle_BP = (first_BP + second_BP) / 2.0
-    half_BP = (second_BP - first_BP).abs().clamp(min=LEAST_RANGE) / 2.0
-    return middle_BP - half_BP, middle_BP + half_BP
+def _ends(limits_BP2: Tensor) -> Corners:
+    first_BP1, second_BP1 = full(limits_BP2)[..., :1], full(limits_BP2)[..., 1:]
+    middle_BP1 = (first_BP1 + second_BP1) / 2.0
+    half_BP1 = (second_BP1 - first_BP1).abs().clamp(min=LEAST_RANGE) / 2.0
+    return middle_BP1 - half_BP1, middle_BP1 + half_BP1
 
 
-def _corners(boxes: Articulation) -> tuple[Tensor, Tensor]:
+def _corners(boxes: Articulation) -> Corners:
     half_BP3 = full(boxes.size_BP3).clamp(min=LEAST_SIDE) / 2.0
     return full(boxes.center_BP3) - half_BP3, full(boxes.center_BP3) + half_BP3
 
 
-def _volume(sides_BP3: Tensor) -> Tensor:
-    return sides_BP3.clamp(min=0.0).prod(dim=-1)
+def _volume(sides_BPD: Tensor) -> Tensor:
+    return sides_BPD.clamp(min=0.0).prod(dim=-1)
